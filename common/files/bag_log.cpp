@@ -264,15 +264,25 @@ std::optional<Error> BagLog::choose(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
-/// The requested topic, or the one with the largest coverage.
+/// By the option, or by its transform to the frames it is fixed to.
+bool BagLog::scans_vertically(const TopicCandidate& candidate) const {
+  if (std::ranges::find(options_.topics.vertical, candidate.topic, &VerticalScanner::name) !=
+      options_.topics.vertical.end())
+    return true;
+  const auto fixed = frames_.fixed(frames_.fixed_root(candidate.frame), candidate.frame);
+  return fixed && sensing::scans_vertically(in_space(*fixed));
+}
+
+/// The requested topic, or the one with the largest coverage of the plane.
 std::optional<std::size_t> BagLog::main_scanner() const {
   std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < scan_topics_.size(); ++i) {
+  const auto worth = [&](std::size_t i) {
     const TopicCandidate& candidate = scan_topics_[i].candidate;
-    if (is_topic(options_.topics.scan_topic, candidate.topic)) return i;
-    if (options_.topics.scan_topic.empty() &&
-        (!best || seen(candidate) > seen(scan_topics_[*best].candidate)))
-      best = i;
+    return std::pair(!scans_vertically(candidate), seen(candidate));
+  };
+  for (std::size_t i = 0; i < scan_topics_.size(); ++i) {
+    if (is_topic(options_.topics.scan_topic, scan_topics_[i].candidate.topic)) return i;
+    if (options_.topics.scan_topic.empty() && (!best || worth(i) > worth(*best))) best = i;
   }
   return best;
 }
@@ -303,7 +313,7 @@ void BagLog::choose_scanners(std::size_t main) {
     if (is_known || scan_topics_[main].is_cloud || slot >= kMaxScanners) continue;
     frames.push_back(other->candidate.frame);
     take(*other);
-    if (options_.topics.scan_topic.empty() &&
+    if (options_.topics.scan_topic.empty() && !scans_vertically(other->candidate) &&
         seen(other->candidate) > kAmbiguousShare * seen(scan_topics_[main].candidate)) {
       note("which scanner is the main one is ambiguous: " + scan_topics_[main].candidate.topic +
            " sees most; --scan-topic " + other->candidate.topic + " selects the other");
@@ -387,6 +397,10 @@ void BagLog::mount(ScanTopic& topic, const std::string& base_frame) {
   topic.slice.to_m = options_.topics.cloud_to_m.value_or(height_m + kCloudSliceM);
   if (!is_known || topic.is_cloud) return;
   topic.mounting = mounting_of(*base_from_laser);
+  if (const auto mounting = in_space(*base_from_laser); sensing::scans_vertically(mounting)) {
+    topic.profile_mounting = mounting;
+    topic.mounting->is_upside_down = false;
+  }
   if (topic.mounting->is_upside_down) topic.candidate.note = "upside down";
   if (topic.mounting->tilt_rad > kTiltedRad) {
     topic.candidate.note +=
@@ -547,6 +561,7 @@ CarmenRecord BagLog::finished(Scan scan) {
   record.scanner = topic.candidate.topic;
   if (!topic.mounting) return record;
   record.base_from_laser = topic.mounting->base_from_laser;
+  record.profile_mounting = topic.profile_mounting;
   if (topic.mounting->is_upside_down)
     record.layout = BeamLayout{-record.layout->first_beam_rad, -record.layout->beam_step_rad};
   return record;

@@ -49,6 +49,7 @@ class BagLog : public RecordSource {
     std::int64_t newest_stamp_ns = 0;
     std::uint8_t slot = 0;  ///< Slot of its records; 0: none.
     std::optional<Mounting> mounting;
+    std::optional<sensing::SpatialMounting> profile_mounting;  ///< If its beams are steep.
     bags::Transform base_from_cloud;
     CloudSlice slice;
   };
@@ -92,6 +93,7 @@ class BagLog : public RecordSource {
   std::size_t scan_topic(const bags::RawMessage& message, const std::string& frame);
 
   std::optional<Error> choose(const std::filesystem::path& path);
+  bool scans_vertically(const TopicCandidate& candidate) const;
   std::optional<std::size_t> main_scanner() const;
   void choose_scanners(std::size_t main);
   std::optional<Error> choose_odometry(const std::filesystem::path& path,

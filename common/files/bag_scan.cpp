@@ -109,6 +109,10 @@ Mounting mounting_of(const bags::Transform& base_from_laser) {
   return {planar(base_from_laser), up.z() < 0.0, std::acos(std::min(1.0, std::abs(up.z())))};
 }
 
+sensing::SpatialMounting in_space(const bags::Transform& base_from_laser) {
+  return {base_from_laser.translation_m, base_from_laser.rotation.normalized().toRotationMatrix()};
+}
+
 std::optional<BeamLayout> layout_of_message(float first_beam_rad, float last_beam_rad,
                                             float beam_step_rad, std::size_t beams) {
   if (!std::isfinite(first_beam_rad) || !std::isfinite(beam_step_rad) || beams < 2 ||

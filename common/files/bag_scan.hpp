@@ -8,6 +8,7 @@
 #include "common/bags/ros_messages.hpp"
 #include "common/files/carmen_record.hpp"
 #include "common/geometry/pose2.hpp"
+#include "common/sensing/spatial_mounting.hpp"
 
 namespace slammot::files {
 
@@ -22,6 +23,8 @@ struct Mounting {
 };
 
 Mounting mounting_of(const bags::Transform& base_from_laser);
+
+sensing::SpatialMounting in_space(const bags::Transform& base_from_laser);
 
 /// The decimal number of few digits within a few units in the last place of this double, if there
 /// is one: undoes the rounding of a heading in a quaternion. Also for wrapped headings.

@@ -56,23 +56,52 @@ TopicChoice choice_of(const LogPlan& plan) {
   return choice;
 }
 
-/// Frame laser_<scanner_id>, at most 31 characters: the end of a long topic identifies it better
-/// than the start.
-std::string scanner_id_of(std::string_view scanner) {
-  constexpr std::size_t kLongest = 24;
-  std::string id(scanner.substr(std::min(scanner.find_first_not_of('/'), scanner.size())));
-  if (id.size() > kLongest) id.erase(0, id.size() - kLongest);
-  std::ranges::replace(id, '/', '_');
-  return id;
-}
-
 std::vector<std::string> names_of(const std::vector<ScannerPlan>& scanners) {
   std::vector<std::string> names;
   for (const ScannerPlan& scanner : scanners) names.push_back(scanner.name);
   return names;
 }
 
+std::string joined(const std::vector<ScannerPlan>& scanners) {
+  std::string names;
+  for (const ScannerPlan& scanner : scanners) names += (names.empty() ? "" : ", ") + scanner.name;
+  return names;
+}
+
+/// A wish for a scanner that does not scan the plane, or that the log does not have.
+std::optional<Error> find_fault(const ScannerWish& wish, const CarmenSurvey& survey) {
+  const std::vector<ScannerPlan> vertical = survey.profile_scanners(wish);
+  const auto is_vertical = [&](const std::string& name) {
+    return std::ranges::find(vertical, name, &ScannerPlan::name) != vertical.end();
+  };
+  for (const VerticalScanner& said : wish.vertical) {
+    if (!is_vertical(said.name))
+      return Error{"--vertical: no scanner " + said.name + " in the log"};
+  }
+  for (const std::string& name : wish.used) {
+    if (is_vertical(name))
+      return Error{"scanner " + name +
+                   " scans a vertical profile, which is of no use for localization (slammot model "
+                   "uses it)"};
+  }
+  if (is_vertical(wish.main))
+    return Error{"--scan-topic " + wish.main + ": it scans a vertical profile"};
+  if (survey.scanners(wish).empty() && !vertical.empty())
+    return Error{"no scanner scans the plane: " + joined(vertical) + " scans a vertical profile"};
+  return std::nullopt;
+}
+
 }  // namespace
+
+/// Frame laser_<scanner_id>, at most 31 characters: the end of a long topic identifies it better
+/// than the start.
+std::string CarmenLog::scanner_id_of(std::string_view scanner) {
+  constexpr std::size_t kLongest = 24;
+  std::string id(scanner.substr(std::min(scanner.find_first_not_of('/'), scanner.size())));
+  if (id.size() > kLongest) id.erase(0, id.size() - kLongest);
+  std::ranges::replace(id, '/', '_');
+  return id;
+}
 
 Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path,
                                   const CarmenLogOptions& options) {
@@ -95,8 +124,9 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path,
   }
   const bool has_topics = !first_pass->topics().scanners.empty();  // topics are already selected
   const ScannerWish wish{has_topics ? std::string() : options.topics.scan_topic,
-                         options.topics.scanners};
-  std::vector<ScannerPlan> scanners = survey.scanners(wish.main);
+                         options.topics.scanners, options.topics.vertical};
+  if (auto fault = find_fault(wish, survey)) return Error{path.string() + ": " + fault->message};
+  std::vector<ScannerPlan> scanners = survey.scanners(wish);
   if (scanners.empty()) return no_scans(path, *first_pass, malformed_lines);
   if (!wish.main.empty() && !survey.has_scanner(wish.main))
     return Error{path.string() + ": no scanner " + wish.main + " in the log: its main one is " +
@@ -127,7 +157,7 @@ CarmenLog::CarmenLog(std::unique_ptr<RecordSource> records, LogPlan plan,
     : records_(std::move(records)),
       topics_(records_->topics()),
       plan_(std::move(plan)),
-      scans_(std::max<std::size_t>(1, plan_.scanners.size())) {
+      scans_(std::max<std::size_t>(1, plan_.scanners.size() + plan_.profile_scanners.size())) {
   is_choice_of_plan_ = topics_.scanners.empty();
   if (is_choice_of_plan_) topics_ = choice_of(plan_);
   set_options(options);
@@ -193,14 +223,27 @@ std::vector<std::string> CarmenLog::scanner_ids() const {
   return ids;
 }
 
+/// Those of profiles follow those of the plane.
+const ScannerPlan& CarmenLog::scanner_plan(std::size_t scanner) const {
+  return scanner < plan_.scanners.size() ? plan_.scanners[scanner]
+                                         : plan_.profile_scanners[scanner - plan_.scanners.size()];
+}
+
 /// Index of the record's scanner in the plan; nullopt if the scan is not used.
 std::optional<std::size_t> CarmenLog::scanner_of(const LaserRecord& record) const {
   if (plan_.scanners.empty())
     return record.kind == plan_.laser && record.slot == 1 ? std::optional<std::size_t>(0)
                                                           : std::nullopt;
+  const auto is_of = [&](std::size_t i) {
+    return scanner_plan(i).kind == record.kind && scanner_plan(i).slot == record.slot;
+  };
   const std::size_t used = options_.uses_all_scanners ? plan_.scanners.size() : 1;
   for (std::size_t i = 0; i < used; ++i) {
-    if (plan_.scanners[i].kind == record.kind && plan_.scanners[i].slot == record.slot) return i;
+    if (is_of(i)) return i;
+  }
+  const std::size_t profiles = options_.reads_profiles ? plan_.profile_scanners.size() : 0;
+  for (std::size_t i = plan_.scanners.size(); i < plan_.scanners.size() + profiles; ++i) {
+    if (is_of(i)) return i;
   }
   return std::nullopt;
 }
@@ -374,14 +417,14 @@ sensing::LaserScan CarmenLog::scan_of(LaserRecord record, std::size_t scanner,
   const BeamLayout layout = record.layout.value_or(
       layout_by_convention(record.range_m.size(), options_.fallback_field_of_view_rad));
   const bool is_main = scanner == 0;
-  const double max_range_m = is_main ? plan_.max_range_m : plan_.scanners[scanner].max_range_m;
+  const double max_range_m = is_main ? plan_.max_range_m : scanner_plan(scanner).max_range_m;
   sensing::LaserScan scan;
   scan.stamp_ns = stamp_ns;
   scan.sequence = scans_[scanner];
   scan.scanner.scanner_id =
       has_several_scanners() ? scanner_id_of(record.scanner) : options_.scanner_id;
   scan.scanner.base_from_laser =
-      is_main ? plan_.base_from_laser : plan_.scanners[scanner].base_from_laser;
+      is_main ? plan_.base_from_laser : scanner_plan(scanner).base_from_laser;
   scan.scanner.first_beam_rad = layout.first_beam_rad;
   scan.scanner.beam_step_rad = layout.beam_step_rad;
   scan.scanner.max_range_m =
@@ -408,7 +451,7 @@ void CarmenLog::correct(sensing::LaserScan& scan, std::size_t scanner) const {
 /// CARMEN's records of one kind come from one program; in a bag each scanner has its own driver.
 bool CarmenLog::has_beams_of_the_main_one(std::size_t scanner) const {
   return scanner == 0 ||
-         (plan_.scanners[scanner].kind == plan_.laser && plan_.laser != LaserRecordKind::kBag);
+         (scanner_plan(scanner).kind == plan_.laser && plan_.laser != LaserRecordKind::kBag);
 }
 
 void CarmenLog::put_odometry(const sensing::Odometry& odometry) {

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct CarmenLogOptions {
   geometry::Pose2 fallback_base_from_laser;              ///< If the log has no mounting.
   TopicOptions topics;                                   ///< For logs with several candidates.
   bool uses_all_scanners = false;  ///< False: only the main scanner's scans are returned.
+  bool reads_profiles = false;     ///< True: scans of LogPlan::profile_scanners are returned, too.
   std::size_t most_kept_bytes = std::size_t{48} << 20;  ///< Of records kept by open(): 15 min at 40
                                                         ///< Hz; larger logs are read twice.
 };
@@ -100,6 +102,9 @@ class CarmenLog {
   /// Of the scans returned by next().
   std::vector<std::string> scanner_ids() const;
 
+  /// Name of a scanner in its scans, if several are returned.
+  static std::string scanner_id_of(std::string_view scanner);
+
   /// Share of the file read by next(), [0, 1].
   double fraction_read() const { return now_.fraction_read; }
 
@@ -119,8 +124,9 @@ class CarmenLog {
   void take_in_order(LaserRecord record, std::size_t scanner, std::int64_t stamp_ns);
   void merge_scans(std::size_t may_wait);
   bool has_several_scanners() const {
-    return options_.uses_all_scanners && plan_.scanners.size() > 1;
+    return (options_.uses_all_scanners && plan_.scanners.size() > 1) || options_.reads_profiles;
   }
+  const ScannerPlan& scanner_plan(std::size_t scanner) const;
   std::optional<std::size_t> scanner_of(const LaserRecord& record) const;
   void take(const OdometryRecord& record);
   void take(const GnssRecord& record);

@@ -9,6 +9,7 @@
 
 #include "common/geometry/pose2.hpp"
 #include "common/sensing/aids.hpp"
+#include "common/sensing/spatial_mounting.hpp"
 
 namespace slammot::files {
 
@@ -51,6 +52,8 @@ struct LaserRecord {
   geometry::Pose2 wheel_from_base;
   std::optional<geometry::Pose2> base_from_laser;  ///< ROBOTLASERn: from its two poses; bags: from
                                                    ///< the transforms.
+  std::optional<sensing::SpatialMounting> profile_mounting;  ///< Bags: of a scanner that scans
+                                                             ///< vertically.
   CarmenStamps stamps;
 };
 

@@ -84,6 +84,12 @@ bool are_in_small_units(const std::vector<matching::ScanPair>& pairs) {
   return percentile(std::move(ways), 0.5) > kFarthest_m;
 }
 
+void set_tilt(std::string_view what, double value, sensing::Tilt& tilt) {
+  if (what == "up_offset") tilt.up_m = value;
+  if (what == "roll_offset") tilt.roll_rad = value;
+  if (what == "pitch_offset") tilt.pitch_rad = value;
+}
+
 }  // namespace
 
 std::optional<Error> select_scanners(const std::vector<std::string>& wanted,
@@ -229,6 +235,7 @@ void CarmenSurvey::add_laser(const LaserRecord& record) {
     ++lasers.readings_by_cm[bin];
     lasers.smallest_reading_by_cm[bin] = std::min(lasers.smallest_reading_by_cm[bin], reading_m);
   }
+  if (record.profile_mounting) lasers.profile_mounting = record.profile_mounting;
   if (record.base_from_laser) {
     if (!lasers.base_from_laser) lasers.base_from_laser = record.base_from_laser;
     lasers.base_from_laser_is_constant =
@@ -301,6 +308,7 @@ void CarmenSurvey::add_param(const ParamRecord& record) {
     if (what == "offset") params_[slot].offset[0] = value;
     if (what == "side_offset") params_[slot].offset[1] = value;
     if (what == "angular_offset") params_[slot].offset[2] = value;
+    set_tilt(what, value, params_[slot].tilt);
   }
   constexpr std::string_view kNumbered = "robot_laser";
   if (!record.name.starts_with(kNumbered) || record.name.size() < kNumbered.size() + 2 ||
@@ -313,13 +321,14 @@ void CarmenSurvey::add_param(const ParamRecord& record) {
   if (what == "offset") numbered.offset[0] = value;
   if (what == "side_offset") numbered.offset[1] = value;
   if (what == "angular_offset") numbered.offset[2] = value;
+  set_tilt(what, value, numbered.tilt);
 }
 
 /// A log may contain the same scans from the scanner and from the base, the latter with poses.
 /// Records with poses are preferred, above all ROBOTLASERn, which has more fields. A small number
 /// of them does not replace the rest.
 std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::best_of_each_slot(
-    const std::string& main_scanner) const {
+    const ScannerWish& wish) const {
   // weight by LaserRecordKind
   constexpr std::array<double, 5> kWorth = {1.0, 1.0 + 1e-9, 0.5, 0.25, 1.0};
   const auto worth = [&](const Lasers& lasers) {
@@ -328,18 +337,27 @@ std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::best_of_each_slot(
   std::map<std::uint8_t, const Lasers*> best;
   for (const Lasers& lasers : lasers_) {
     const Lasers*& so_far = best[lasers.slot];
-    const bool was_asked_for = so_far != nullptr && so_far->scanner == main_scanner;
-    if (so_far == nullptr || lasers.scanner == main_scanner ||
+    const bool was_asked_for = so_far != nullptr && so_far->scanner == wish.main;
+    if (so_far == nullptr || lasers.scanner == wish.main ||
         (!was_asked_for && worth(lasers) > worth(*so_far)))
       so_far = &lasers;
   }
   std::vector<const Lasers*> in_order;
   for (const auto& [slot, lasers] : best) in_order.push_back(lasers);
-  // The main scanner is the first that is not much rarer than any other.
+  return in_order;
+}
+
+/// Those that may be localized. The main scanner is the first that is not much rarer than any
+/// other.
+std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::planar_scanners(
+    const ScannerWish& wish) const {
+  std::vector<const Lasers*> in_order = best_of_each_slot(wish);
+  std::erase_if(in_order,
+                [&](const Lasers* lasers) { return profile_mounting(*lasers, wish).has_value(); });
   std::uint64_t most = 0;
   for (const Lasers* lasers : in_order) most = std::max(most, lasers->scans);
   auto main = std::ranges::find_if(
-      in_order, [&](const Lasers* lasers) { return lasers->scanner == main_scanner; });
+      in_order, [&](const Lasers* lasers) { return lasers->scanner == wish.main; });
   if (main == in_order.end())
     main = std::ranges::find_if(in_order,
                                 [&](const Lasers* lasers) { return 2 * lasers->scans >= most; });
@@ -350,7 +368,7 @@ std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::best_of_each_slot(
 /// Another scanner is used only if its mounting is known: a guess would distort the map.
 std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::lasers_to_use(
     const ScannerWish& wish) const {
-  std::vector<const Lasers*> lasers = best_of_each_slot(wish.main);
+  std::vector<const Lasers*> lasers = planar_scanners(wish);
   const Lasers* const main = lasers.empty() ? nullptr : lasers.front();
   std::erase_if(lasers, [&](const Lasers* one) {
     return wish.used.empty() ? one != main && !mounting_is_known(*one)
@@ -366,24 +384,46 @@ ScannerPlan CarmenSurvey::scanner_plan(const Lasers& lasers) const {
           lasers.scans,
           base_from_laser(lasers),
           max_range_m(lasers),
-          mounting_is_known(lasers)};
+          mounting_is_known(lasers),
+          {}};
+}
+
+/// By the wish, the PARAM lines or the record; none for a scanner that scans the plane.
+std::optional<sensing::SpatialMounting> CarmenSurvey::profile_mounting(
+    const Lasers& lasers, const ScannerWish& wish) const {
+  const auto said = std::ranges::find(wish.vertical, lasers.scanner, &VerticalScanner::name);
+  if (said != wish.vertical.end()) return said->mounting;
+  if (lasers.profile_mounting) return lasers.profile_mounting;
+  const sensing::Tilt& tilt = params_of(lasers).tilt;
+  if (!sensing::scans_vertically(tilt)) return std::nullopt;
+  return sensing::in_space(base_from_laser(lasers), tilt);
 }
 
 bool CarmenSurvey::has_scanner(const std::string& name) const {
   return std::ranges::any_of(lasers_, [&](const Lasers& lasers) { return lasers.scanner == name; });
 }
 
-std::vector<ScannerPlan> CarmenSurvey::scanners(const std::string& main_scanner) const {
+std::vector<ScannerPlan> CarmenSurvey::scanners(const ScannerWish& wish) const {
   std::vector<ScannerPlan> plans;
-  for (const Lasers* lasers : best_of_each_slot(main_scanner))
+  for (const Lasers* lasers : planar_scanners(wish)) plans.push_back(scanner_plan(*lasers));
+  return plans;
+}
+
+std::vector<ScannerPlan> CarmenSurvey::profile_scanners(const ScannerWish& wish) const {
+  std::vector<ScannerPlan> plans;
+  for (const Lasers* lasers : best_of_each_slot(wish)) {
+    const auto mounting = profile_mounting(*lasers, wish);
+    if (!mounting) continue;
     plans.push_back(scanner_plan(*lasers));
+    plans.back().profile_mounting = mounting;
+  }
   return plans;
 }
 
 LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerWish& wish) const {
   LogPlan plan;
   const std::vector<const Lasers*> to_use = lasers_to_use(wish);
-  for (const Lasers* scanner : best_of_each_slot(wish.main)) {
+  for (const Lasers* scanner : planar_scanners(wish)) {
     const bool is_used = std::ranges::find(to_use, scanner) != to_use.end();
     if (!is_used && wish.used.empty()) plan.unplaced_scanners.push_back(scanner->scanner);
   }
@@ -421,6 +461,7 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
   if (lasers.scans == 0) return plan;
   for (const Lasers& scanner : scanners) plan.scanners.push_back(scanner_plan(scanner));
   plan.scanners.front().base_from_laser = plan.base_from_laser;
+  plan.profile_scanners = profile_scanners(wish);
   return plan;
 }
 

@@ -12,8 +12,10 @@
 
 #include "common/files/carmen_record.hpp"
 #include "common/files/result.hpp"
+#include "common/files/topic_choice.hpp"
 #include "common/matching/log_evidence.hpp"
 #include "common/sensing/scan_times.hpp"
+#include "common/sensing/spatial_mounting.hpp"
 #include "common/sensing/stamp_guard.hpp"
 
 namespace slammot::files {
@@ -69,6 +71,8 @@ struct ScannerPlan {
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;       ///< As in LogPlan.
   bool mounting_is_known = true;  ///< From the log; otherwise base_from_laser is a guess.
+  std::optional<sensing::SpatialMounting> profile_mounting;  ///< Of a scanner that scans a vertical
+                                                             ///< profile.
 };
 
 /// Selection of a log's scanners.
@@ -76,6 +80,7 @@ struct ScannerWish {
   std::string main;               ///< Name of the main scanner; empty: chosen by content.
   std::vector<std::string> used;  ///< Names of the scanners to use, from CarmenSurvey::scanners();
                                   ///< empty: all with known mounting.
+  std::vector<VerticalScanner> vertical = {};  ///< As TopicOptions::vertical.
 };
 
 /// Keeps the named scanners, in the order of `scanners`; all if no name is given. For an unknown
@@ -89,6 +94,8 @@ struct LogPlan {
                                                      ///< statistics belong.
   std::vector<ScannerPlan> scanners;  ///< Scanners in use, the main one first. Empty: all records
                                       ///< of kind `laser` are its.
+  std::vector<ScannerPlan> profile_scanners;   ///< Scanners of vertical profiles: neither localized
+                                               ///< nor mapped; for the city model.
   std::vector<std::string> unplaced_scanners;  ///< Unused scanners with unknown mounting.
   LogClock clock = LogClock::kIpc;
   matching::LogEvidence evidence;  ///< Corrections of poses and beams.
@@ -116,8 +123,10 @@ class CarmenSurvey {
   /// fallback_field_of_view_rad: from the first to the last beam, for records without one.
   LogPlan conclude(double fallback_field_of_view_rad, const ScannerWish& wish = {}) const;
 
-  /// All scanners of the log, the main one first.
-  std::vector<ScannerPlan> scanners(const std::string& main_scanner = {}) const;
+  /// All scanners of the log that scan the plane, the main one first.
+  std::vector<ScannerPlan> scanners(const ScannerWish& wish = {}) const;
+  /// Those that scan a vertical profile.
+  std::vector<ScannerPlan> profile_scanners(const ScannerWish& wish = {}) const;
   bool has_scanner(const std::string& name) const;
 
  private:
@@ -204,8 +213,9 @@ class CarmenSurvey {
       std::vector<std::uint32_t> before_scan;  // how many, by scan
       std::vector<geometry::Pose2> pose_before_scan;
     };
-    std::array<LinesBetween, 2> lines_between;       // by OdometryRecordKind
-    std::optional<geometry::Pose2> base_from_laser;  // of the first record
+    std::array<LinesBetween, 2> lines_between;                 // by OdometryRecordKind
+    std::optional<geometry::Pose2> base_from_laser;            // of the first record
+    std::optional<sensing::SpatialMounting> profile_mounting;  // of bags
     bool base_from_laser_is_constant = true;
     ClockCheck ipc_clock;
     ClockCheck logger_clock;
@@ -230,6 +240,7 @@ class CarmenSurvey {
   /// Mounting of one scanner by PARAM lines.
   struct LaserParams {
     std::array<std::optional<double>, 3> offset;  // x, y [m], heading [rad]
+    sensing::Tilt tilt;
     std::optional<double> max_range_m;
 
     bool tell_mounting() const { return offset[0] || offset[1] || offset[2]; }
@@ -245,7 +256,10 @@ class CarmenSurvey {
   };
 
   Lasers& lasers_of(const LaserRecord& record);
-  std::vector<const Lasers*> best_of_each_slot(const std::string& main_scanner) const;
+  std::vector<const Lasers*> best_of_each_slot(const ScannerWish& wish) const;
+  std::vector<const Lasers*> planar_scanners(const ScannerWish& wish) const;
+  std::optional<sensing::SpatialMounting> profile_mounting(const Lasers& lasers,
+                                                           const ScannerWish& wish) const;
   std::vector<const Lasers*> lasers_to_use(const ScannerWish& wish) const;
   const LaserParams& params_of(const Lasers& lasers) const;
   bool mounting_is_known(const Lasers& lasers) const;

@@ -145,6 +145,15 @@ std::string describe_time(const LogPlan& plan) {
               figures.longest_gap_s);
 }
 
+std::string describe_profiles_of(const ScannerPlan& scanner) {
+  const Eigen::Vector3d& position_m = scanner.profile_mounting->position_in_base_m;
+  return scanner.name + text(
+                            ": %llu scans from %.2f m ahead, %.2f m left, %.2f m up, for slammot "
+                            "model only",
+                            static_cast<unsigned long long>(scanner.scans), position_m.x(),
+                            position_m.y(), position_m.z());
+}
+
 }  // namespace
 
 std::string describe_odometry(const LogPlan& plan) {
@@ -176,6 +185,8 @@ std::string describe_log(const LogPlan& plan) {
   lines += text("mounting   %.2f m ahead, %.2f m to the left, turned by %.0f degrees\n",
                 plan.base_from_laser.x_m, plan.base_from_laser.y_m,
                 plan.base_from_laser.heading_rad * kDegrees);
+  for (const ScannerPlan& scanner : plan.profile_scanners)
+    lines += "vertical   " + describe_profiles_of(scanner) + "\n";
   return lines;
 }
 
@@ -219,8 +230,10 @@ std::vector<std::string> describe_findings(const LogPlan& plan) {
 }
 
 std::string describe_scanners(const LogPlan& plan) {
-  if (plan.scanners.size() < 2) return {};
   std::string lines;
+  for (const ScannerPlan& scanner : plan.profile_scanners)
+    lines += "vertical: " + describe_profiles_of(scanner) + "\n";
+  if (plan.scanners.size() < 2) return lines;
   for (const ScannerPlan& scanner : plan.scanners) {
     const geometry::Pose2& mounting = scanner.base_from_laser;
     lines += "scanner:  " + scanner.name +

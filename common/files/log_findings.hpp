@@ -29,7 +29,8 @@ std::string describe_log(const LogPlan& plan);
 /// Likely causes of a loss of localization in this log, most likely first, in one line.
 std::string likely_causes(const LogPlan& plan);
 
-/// Terminal lines with the names of the used scanners, if there are several; otherwise empty.
+/// Terminal lines with the names of the used scanners, if there are several, and of those that scan
+/// vertically; otherwise empty.
 std::string describe_scanners(const LogPlan& plan);
 
 /// Name of the fault in the report; "none" for a clock without fault.

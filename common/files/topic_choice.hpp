@@ -5,7 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "common/files/result.hpp"
+#include "common/sensing/spatial_mounting.hpp"
+
 namespace slammot::files {
+
+/// A scanner that is said to scan a vertical profile, with its mounting.
+struct VerticalScanner {
+  std::string text;  ///< As parse_vertical_scanner() takes it.
+  std::string name;
+  sensing::SpatialMounting mounting;
+};
+
+/// Parses NAME=AHEAD,LEFT,UP,ROLL,PITCH,HEADING [m, degrees]. Fails with one line that names the
+/// form, also for a mounting whose beams are not steep.
+Result<VerticalScanner> parse_vertical_scanner(const std::string& text);
 
 /// What may be asked for where a log leaves a choice.
 struct TopicOptions {
@@ -15,6 +29,7 @@ struct TopicOptions {
                            ///< they hold.
   std::string odometry_topic;  ///< nav_msgs/Odometry, or the topic of the transforms; "none" for no
                                ///< odometry.
+  std::vector<VerticalScanner> vertical;  ///< Replaces what the log says of their mounting.
   /// Heights above the base between which points of clouds count [m]; without them a slice around
   /// the height of the sensor.
   std::optional<double> cloud_from_m;

@@ -189,6 +189,7 @@ struct Drive::World {
     const Pose2 moved = inverse(before.world_from_base) * after.world_from_base;
     SimulatedScan result;
     result.scan = {0, 0, scanner_of(config), scanned.range_m};
+    result.is_vertical = scans_vertically(config);
     result.world_from_base = now.world_from_base;
     result.speed_mps = moved.x_m / step_s;
     result.yaw_rate_radps = moved.heading_rad / step_s;

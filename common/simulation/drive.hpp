@@ -28,7 +28,8 @@ constexpr int kHitSeveral = -2;  ///< Spot split over an edge: the range is of n
 
 /// One scan with odometry and ground truth, all at the scan's stamp.
 struct SimulatedScan {
-  std::size_t scanner = 0;  ///< 0: the scenario's first one.
+  std::size_t scanner = 0;   ///< 0: the scenario's first one.
+  bool is_vertical = false;  ///< A vertical profile.
   sensing::LaserScan scan;
   sensing::Odometry odometry;
   double odometry_speed_mps = 0.0;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "common/sensing/spatial_mounting.hpp"
+
 namespace slammot::simulation {
 namespace {
 
@@ -282,6 +284,11 @@ sensing::Scanner scanner_of(const ScannerConfig& config) {
   scanner.max_range_m = config.max_range_m;
   scanner.sweep_s = config.sweep_s;
   return scanner;
+}
+
+bool scans_vertically(const ScannerConfig& config) {
+  return sensing::scans_vertically(
+      sensing::Tilt{config.height_m, config.left_up_rad, config.nose_down_rad});
 }
 
 double range_sigma_m(const ScannerConfig& config, double range_m) {

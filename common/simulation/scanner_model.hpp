@@ -75,6 +75,9 @@ struct ScannedWorld {
 /// The scanner's geometry as in its scans, without the tilt.
 sensing::Scanner scanner_of(const ScannerConfig& config);
 
+/// True if its scans are vertical profiles, of no use for a planar map.
+bool scans_vertically(const ScannerConfig& config);
+
 /// One sigma at that range.
 double range_sigma_m(const ScannerConfig& config, double range_m);
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "services/evaluator/annotations.hpp"
+#include "services/evaluator/map_cells.hpp"
 #include "services/evaluator/scenes.hpp"
 #include "services/evaluator/table_file.hpp"
 
@@ -17,22 +18,6 @@ metrics::Trajectory without_loops(const RunResult& result) {
   for (const metrics::UncertainStampedPose& pose : result.uncertain)
     trajectory.push_back({pose.stamp_ns, pose.odom_from_base.pose});
   return trajectory;
-}
-
-metrics::OccupancyCells to_cells(const files::MapImage& image) {
-  metrics::OccupancyCells cells{image.width,   image.height,  image.resolution_m,
-                                image.min_x_m, image.min_y_m, {}};
-  cells.state.reserve(image.pixels.size());
-  for (std::size_t row = 0; row < image.height; ++row) {
-    const auto first =
-        image.pixels.begin() + static_cast<std::ptrdiff_t>((image.height - 1 - row) * image.width);
-    for (auto pixel = first; pixel != first + static_cast<std::ptrdiff_t>(image.width); ++pixel) {
-      cells.state.push_back(*pixel == files::kOccupiedPixel ? metrics::CellState::kOccupied
-                            : *pixel == files::kFreePixel   ? metrics::CellState::kFree
-                                                            : metrics::CellState::kUnknown);
-    }
-  }
-  return cells;
 }
 
 std::vector<metrics::TrueObject> moving_objects(const Truth& truth, double least_speed_mps) {
@@ -106,7 +91,7 @@ std::optional<Error> evaluate_scenes(const RunResult& result, const Truth& truth
   }
   if (truth.walls && result.map) {
     evaluation.map =
-        metrics::map_quality(to_cells(*result.map), evaluation.corrected.world_from_map,
+        metrics::map_quality(cells_of(*result.map), evaluation.corrected.world_from_map,
                              {*truth.walls, moving_objects(truth, options.rule.least_speed_mps),
                               survey->wall_points_m, survey->object_points_m},
                              options.map_tolerance_m);

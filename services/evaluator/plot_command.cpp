@@ -12,6 +12,7 @@
 #include "services/evaluator/comparison.hpp"
 #include "services/evaluator/doubts.hpp"
 #include "services/evaluator/figures.hpp"
+#include "services/evaluator/model_drawing.hpp"
 #include "services/evaluator/plot_drawing.hpp"
 #include "services/evaluator/scene_drawing.hpp"
 
@@ -69,7 +70,14 @@ files::Result<Drawing> draw_errors(const RunResult& result, const PlotOptions& o
   return draw_plots(plots);
 }
 
+files::Result<Drawing> draw_model_of(const RunResult& result, const PlotOptions& options) {
+  const auto model = files::read_ply(options.result / "model.ply");
+  if (!model) return model.error();
+  return draw_model(*model, result.corrected, page_theme(options.theme), options.size);
+}
+
 files::Result<Drawing> draw(const RunResult& result, const PlotOptions& options) {
+  if (options.what == "model") return draw_model_of(result, options);
   if (options.what == "errors") return draw_errors(result, options);
   if (options.what != "latency") return draw_ground(result, options);
   const std::vector<LogBar> bars = latency_bars(result.report_json);
@@ -89,7 +97,7 @@ int plot(const PlotOptions& options) {
   if (output.extension() == ".svg") {
     content = to_svg(*drawing);
   } else if (output.extension() == ".png") {
-    const bool is_map = options.what == "map" || options.what == "tracks";
+    const bool is_map = options.what != "latency" && options.what != "errors";
     const auto png = files::to_png(to_pixels(*drawing, is_map ? 1.0 : kSharp));
     if (!png) return files::fail(png.error().message);
     content = *png;
@@ -105,13 +113,13 @@ int plot(const PlotOptions& options) {
 }  // namespace
 
 void add_plot_command(CLI::App& app, int& exit_code) {
-  CLI::App* const command =
-      app.add_subcommand("plot", "Draw map, tracks, latencies or errors of a result");
+  CLI::App* const command = app.add_subcommand(
+      "plot", "Draw map, tracks, latencies, errors or the 2.5-D model of a result");
   const auto options = std::make_shared<PlotOptions>();
   command->add_option("what", options->what, "What to draw")
       ->required()
-      ->type_name("map|tracks|latency|errors")
-      ->check(CLI::IsMember({"map", "tracks", "latency", "errors"}));
+      ->type_name("map|tracks|latency|errors|model")
+      ->check(CLI::IsMember({"map", "tracks", "latency", "errors", "model"}));
   command->add_option("result", options->result, "Folder that run or bench wrote")
       ->required()
       ->type_name("DIR");
@@ -123,11 +131,12 @@ void add_plot_command(CLI::App& app, int& exit_code) {
       ->add_option("--truth", options->truth,
                    "Prefix of the true files: errors in place of standard deviations")
       ->type_name("PREFIX");
-  command->add_option("--theme", options->theme, "Colours of map and tracks: dark or light")
+  command->add_option("--theme", options->theme, "Colours of map, tracks and model: dark or light")
       ->type_name("dark|light")
       ->check(CLI::IsMember({"dark", "light"}))
       ->capture_default_str();
-  command->add_option("--size", options->size, "Pixels along the longer side of map and tracks")
+  command
+      ->add_option("--size", options->size, "Pixels along the longer side of map, tracks and model")
       ->type_name("N")
       ->check(CLI::Range(64.0, 16384.0))
       ->capture_default_str();

@@ -139,6 +139,15 @@ std::string hdt_line(const sensing::CompassReading& reading) {
   return text;
 }
 
+/// Height and tilt, if it is tilted so that it scans a vertical profile.
+void append_tilt(std::string& text, const std::string& name,
+                 const simulation::ScannerConfig& mounted) {
+  if (!scans_vertically(mounted)) return;
+  append_parameter(text, name + "up_offset", mounted.height_m, 3);
+  append_parameter(text, name + "roll_offset", mounted.left_up_rad, 6);
+  append_parameter(text, name + "pitch_offset", mounted.nose_down_rad, 6);
+}
+
 }  // namespace
 
 std::string log_header(const simulation::ScenarioConfig& scenario) {
@@ -149,6 +158,7 @@ std::string log_header(const simulation::ScenarioConfig& scenario) {
     append_parameter(text, name + "offset", mounted.ahead_m, 3);
     append_parameter(text, name + "side_offset", mounted.left_m, 3);
     append_parameter(text, name + "angular_offset", mounted.heading_rad, 6);
+    append_tilt(text, name, mounted);
   }
   return text;
 }
@@ -161,6 +171,7 @@ std::string header_of_log_of(const simulation::ScenarioConfig& scenario, std::si
     append_parameter(text, "robot_frontlaser_side_offset", mounted.left_m, 3);
   if (mounted.heading_rad != 0.0)
     append_parameter(text, "robot_frontlaser_angular_offset", mounted.heading_rad, 6);
+  append_tilt(text, "robot_frontlaser_", mounted);
   append_parameter(text, "robot_width", scenario.route.width_m, 1);
   append_parameter(text, "robot_length", scenario.route.length_m, 1);
   return text;

@@ -39,6 +39,11 @@ files::ScannerPlan scanner_plan(const simulation::ScenarioConfig& scenario, std:
                           rounded_to_decimals(scanner.heading_rad, 6)};
   plan.max_range_m = static_cast<double>(static_cast<float>(scanner.max_range_m));
   plan.scans = scans_of(scenario, index);
+  if (simulation::scans_vertically(scanner))
+    plan.profile_mounting =
+        sensing::in_space(plan.base_from_laser, {rounded_to_decimals(scanner.height_m, 3),
+                                                 rounded_to_decimals(scanner.left_up_rad, 6),
+                                                 rounded_to_decimals(scanner.nose_down_rad, 6)});
   return plan;
 }
 
@@ -127,8 +132,12 @@ files::Result<files::LogPlan> plan_of(const simulation::ScenarioConfig& scenario
   files::LogPlan plan;
   plan.clock = files::LogClock::kIpc;
   plan.odometry = files::OdometrySource::kLaserRecords;
-  for (std::size_t i = 0; i <= scenario.more_scanners.size(); ++i)
-    plan.scanners.push_back(scanner_plan(scenario, i));
+  for (std::size_t i = 0; i <= scenario.more_scanners.size(); ++i) {
+    files::ScannerPlan scanner = scanner_plan(scenario, i);
+    (scanner.profile_mounting ? plan.profile_scanners : plan.scanners)
+        .push_back(std::move(scanner));
+  }
+  if (plan.scanners.empty()) return files::Error{"no scanner of the scenario scans the plane"};
   if (auto fault = files::select_scanners(wanted, plan.scanners)) return *fault;
   plan.laser = plan.scanners.front().kind;
   plan.base_from_laser = plan.scanners.front().base_from_laser;

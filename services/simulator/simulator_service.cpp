@@ -112,9 +112,11 @@ void SimulatorService::wait_for_services() {
     begin();
 }
 
-/// With the turns of the gyro, if the vehicle has one.
+/// With the turns of the gyro, if the vehicle has one. Vertical profiles are left out: no service
+/// uses them.
 std::optional<simulation::SimulatedScan> SimulatorService::next_scan() {
   auto scan = drive_.next();
+  while (scan && scan->is_vertical) scan = drive_.next();
   if (!scan) return scan;
   for (const sensing::TurnRate& reading : scan->turn_rates) gyro_.add(reading);
   scan->odometry = gyro_.fused(scan->odometry);

@@ -38,6 +38,7 @@ TruthFiles::TruthFiles(const std::filesystem::path& prefix,
 
 void TruthFiles::add(const simulation::SimulatedScan& drive) {
   if (hits_) *hits_ << hits_line(drive);
+  if (drive.is_vertical) return;
   if (newest_ && newest_->scan.stamp_ns != drive.scan.stamp_ns) write_newest();
   newest_ = with_all_scanners(drive);
 }

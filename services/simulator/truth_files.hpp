@@ -17,7 +17,8 @@ enum class HitsFile { left_out, written };
 /// the drive. Replaces existing files. Poses and objects are written once per stamp, hits once per
 /// scan. An object is in view if the scan or the latest scan of another scanner hit it; its points
 /// are the beams of all these scans. For 10 s after it was in view an object is hidden: it has a
-/// row without points, so that a track through an occlusion can be judged.
+/// row without points, so that a track through an occlusion can be judged. Of a scanner of vertical
+/// profiles only the hits are written.
 class TruthFiles {
  public:
   TruthFiles(const std::filesystem::path& prefix, const simulation::Outline& stationary_in_world,

@@ -27,6 +27,7 @@
 #include "services/slammot/health_command.hpp"
 #include "services/slammot/live_command.hpp"
 #include "services/slammot/map_command.hpp"
+#include "services/slammot/model_command.hpp"
 #include "services/slammot/replay_command.hpp"
 #include "services/slammot/run_command.hpp"
 #include "services/slammot/streets_command.hpp"
@@ -46,7 +47,7 @@ const std::vector<Group>& groups() {
   static const std::vector<Group> kGroups = {
       {"Process a drive", {"run", "bench", "live", "collect", "simulate"}},
       {"Look at a drive or a result",
-       {"check", "report", "plot", "animate", "eval", "warn", "streets"}},
+       {"check", "report", "plot", "animate", "eval", "warn", "streets", "model"}},
       {"Recordings of the bus", {"record", "play", "replay", "bag"}},
       {"Settings, maps and keys", {"config", "map", "keys"}},
       {"Services that run",
@@ -98,6 +99,7 @@ int run_command_line(int argc, char** argv) {
   inspector::add_doctor_command(app, exit_code);
   add_warn_command(app, exit_code);
   add_streets_command(app, exit_code);
+  add_model_command(app, exit_code);
   recorder::add_record_command(app, exit_code);
   recorder::add_play_command(app, exit_code);
   add_replay_command(app, exit_code);

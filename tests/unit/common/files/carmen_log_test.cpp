@@ -440,5 +440,69 @@ TEST_F(CarmenLogTest, KnowsWhereNumberedLasersAre) {
               PoseNear(Pose2{0.4, -0.2, 1.5}, 1e-12));
 }
 
+const std::string kTiltOfTheRearOne =
+    "PARAM robot_laser2_offset 0.4\nPARAM robot_laser2_up_offset 2.1\nPARAM "
+    "robot_laser2_roll_offset 1.570796\n";
+
+TEST_F(CarmenLogTest, KeepsTheScansOfAVerticalLaserFromLocalization) {
+  CarmenLogOptions options;
+  options.uses_all_scanners = true;
+  write_file(file_, kTiltOfTheRearOne + front_and_rear(5));
+  const Reading reading = read_with(options);
+  EXPECT_EQ(reading.scans.size(), 5u);
+  EXPECT_EQ(reading.plan.scanners.size(), 1u);
+  ASSERT_EQ(reading.plan.profile_scanners.size(), 1u);
+  const ScannerPlan& vertical = reading.plan.profile_scanners[0];
+  EXPECT_EQ(vertical.name, "RLASER");
+  EXPECT_EQ(vertical.profile_mounting->position_in_base_m, Eigen::Vector3d(0.4, 0.0, 2.1));
+}
+
+TEST_F(CarmenLogTest, HandsOutTheScansOfAVerticalLaserWhereTheyAreAskedFor) {
+  CarmenLogOptions options;
+  options.reads_profiles = true;
+  write_file(file_, kTiltOfTheRearOne + front_and_rear(5));
+  const Reading reading = read_with(options);
+  EXPECT_EQ(
+      std::ranges::count_if(reading.scans,
+                            [](const auto& scan) { return scan.scanner.scanner_id == "RLASER"; }),
+      5);
+  EXPECT_EQ(reading.scans.size(), 10u);
+}
+
+TEST_F(CarmenLogTest, RefusesToLocalizeByAVerticalLaser) {
+  CarmenLogOptions options;
+  options.topics.scanners = {"RLASER"};
+  write_file(file_, kTiltOfTheRearOne + front_and_rear(5));
+  const auto refused = CarmenLog::open(file_, options);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("RLASER scans a vertical profile"));
+  write_file(file_, "PARAM robot_frontlaser_roll_offset 1.57\n" + straight_drive(5));
+  const auto only_one = CarmenLog::open(file_, {});
+  ASSERT_FALSE(only_one);
+  EXPECT_THAT(only_one.error().message, HasSubstr("no scanner scans the plane"));
+}
+
+TEST_F(CarmenLogTest, TakesALaserForVerticalThatIsSaidToBe) {
+  CarmenLogOptions options;
+  options.uses_all_scanners = true;
+  options.topics.vertical = {*parse_vertical_scanner("RLASER=1,0,2,0,-90,0")};
+  write_file(file_, front_and_rear(5));
+  EXPECT_EQ(read_with(options).scans.size(), 5u);
+  options.topics.vertical = {*parse_vertical_scanner("LASER7=1,0,2,0,-90,0")};
+  const auto refused = CarmenLog::open(file_, options);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("no scanner LASER7"));
+}
+
+TEST(VerticalScanner, IsParsedInMetresAndDegrees) {
+  const auto scanner = parse_vertical_scanner("/roof/scan=1,-0.5,2.1,90,0,90");
+  ASSERT_TRUE(scanner);
+  EXPECT_EQ(scanner->name, "/roof/scan");
+  EXPECT_EQ(scanner->mounting.position_in_base_m, Eigen::Vector3d(1.0, -0.5, 2.1));
+  for (const char* const wrong : {"", "a", "=1,0,2,0,-90,0", "a=1,0,2,0,-90", "a=1,0,2,0,-90,0,1",
+                                  "a=1,0,2,0,-90,x", "a=1,0,2,0,nan,0", "a=1,0,2,0,10,0"})
+    EXPECT_FALSE(parse_vertical_scanner(wrong)) << wrong;
+}
+
 }  // namespace
 }  // namespace slammot::files

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/city_model/profile_model.hpp"
+#include "common/files/carmen_log.hpp"
+#include "common/files/result.hpp"
+#include "services/evaluator/result_files.hpp"
+
+namespace slammot {
+
+/// Which log and which of its scanners.
+struct ModelInput {
+  std::filesystem::path log;
+  std::vector<std::string> scanners;  ///< Names; empty: all that scan vertically.
+  files::TopicOptions topics;
+};
+
+/// A scan that went into the model: what a PlacedEcho::scan counts.
+struct ModelledScan {
+  std::int64_t stamp_ns = 0;
+  std::size_t beams = 0;
+  std::string scanner;
+};
+
+struct ModelOfLog {
+  city_model::CityModel model;
+  std::vector<ModelledScan> scans;
+  std::vector<files::ScannerPlan> scanners;
+};
+
+/// Trajectories, boxes of tracks where they were seen, and SO-map of a result.
+city_model::EstimatedDrive drive_of(const evaluator::RunResult& result);
+
+/// Fails with one line if the log has no vertical scanner, or no scan within the result's
+/// trajectory.
+files::Result<ModelOfLog> model_of(const evaluator::RunResult& result, const ModelInput& input);
+
+}  // namespace slammot
