@@ -26,7 +26,9 @@ spdlog::level::level_enum level_of(LogLevel level) {
 
 }  // namespace
 
-void log_line(LogLevel level, std::string_view line) { spdlog::default_logger_raw()->log(level_of(level), line); }
+void log_line(LogLevel level, std::string_view line) {
+  spdlog::default_logger_raw()->log(level_of(level), line);
+}
 
 void set_up_log(std::string_view service_name) {
   const std::string name(service_name);

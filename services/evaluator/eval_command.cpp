@@ -54,7 +54,8 @@ int evaluate_run(const EvalOptions& options) {
   auto evaluation =
       evaluate(*result, *truth, echo_source(comparison, *result, *truth), comparison.evaluation);
   if (!evaluation) return files::fail(evaluation.error());
-  if (const auto fault = evaluate_walls(comparison, *result, *evaluation)) return files::fail(*fault);
+  if (const auto fault = evaluate_walls(comparison, *result, *evaluation))
+    return files::fail(*fault);
   std::fputs(to_text(*evaluation, comparison.evaluation).c_str(), stdout);
   if (const auto fault = write_files(options, *evaluation)) return files::fail(*fault);
   std::printf("all figures are in %s\n", (comparison.result / "evaluation.json").c_str());

@@ -10,6 +10,7 @@
 
 #include "common/city_model/accuracy.hpp"
 #include "common/files/atomic_file.hpp"
+#include "common/files/failure.hpp"
 #include "common/files/ply_file.hpp"
 #include "common/files/text.hpp"
 #include "common/simulation/surface.hpp"
@@ -32,11 +33,6 @@ struct ModelOptions {
   path points;  ///< Empty: not written.
   path truth;   ///< Prefix; empty: not judged.
 };
-
-int fail(const std::string& line) {
-  std::fprintf(stderr, "slammot: %s\n", line.c_str());
-  return kExitFault;
-}
 
 /// From blue at the road to yellow at a tall roof.
 files::Rgb colour_at(double height_m) {
@@ -186,24 +182,24 @@ std::optional<Error> complete(ModelOptions& options) {
 }
 
 int make_model(ModelOptions options) {
-  if (const auto fault = complete(options)) return fail(fault->message);
+  if (const auto fault = complete(options)) return files::fail(*fault);
   const auto result = evaluator::read_result(options.result);
-  if (!result) return fail(result.error().message);
+  if (!result) return files::fail(result.error());
   const auto built = model_of(*result, options.input);
-  if (!built) return fail(built.error().message);
+  if (!built) return files::fail(built.error());
   print(built->model);
   nlohmann::ordered_json figures = json_of(built->model);
   if (!options.truth.empty()) {
     const auto accuracy = judge(*result, *built, options.truth);
-    if (!accuracy) return fail(accuracy.error().message);
+    if (!accuracy) return files::fail(accuracy.error());
     print(*accuracy);
     figures["accuracy"] = json_of(*accuracy);
   }
-  if (const auto fault = write_files(options, *built)) return fail(fault->message);
+  if (const auto fault = write_files(options, *built)) return files::fail(*fault);
   path json = options.output;
   json.replace_extension(".json");
   if (const auto fault = files::write_file_atomically(json, figures.dump(2) + "\n"))
-    return fail(fault->message);
+    return files::fail(*fault);
   std::printf("%s\n", options.output.c_str());
   return kExitDone;
 }
