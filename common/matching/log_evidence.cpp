@@ -80,13 +80,25 @@ Pose2 refined(const CorrelativeMatcher& matcher, std::span<const Eigen::Vector2f
                                        {x_m, y_m, heading_rad + kStepRad})};
 }
 
+constexpr double kReachM = 1.6;
+
+/// False for a pair that odometry has farther apart than the search reaches, by a factor that is no
+/// unit: where such a pair matches, it matches in a wrong place, and tells of no scale or sign.
+bool is_within_reach(const Pose2& by_odometry) {
+  constexpr double kMostFactor = 1.5;
+  constexpr double kAnotherUnit_m = 20.0;
+  const double way_m = by_odometry.translation_m().norm();
+  return way_m < kMostFactor * kReachM || way_m > kAnotherUnit_m;
+}
+
 /// Search window for any turn up to 1.5 rad of either sign, and for the way in any direction.
 std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pair,
                                  const AssumedBeams& beams, const LogCorrection& correction) {
   constexpr std::size_t kTargetPoints = 360;
   constexpr std::size_t kSourcePoints = 90;
   constexpr std::size_t kFewestPoints = 20;
-  constexpr double kReachM = 1.6;
+  const Pose2 by_odometry = motion_by_odometry(pair, correction);
+  if (!is_within_reach(by_odometry)) return std::nullopt;
   const auto target = points_of(pair.first, beams, correction.range_unit_m, kTargetPoints);
   const auto source = points_of(pair.second, beams, correction.range_unit_m, kSourcePoints);
   if (target.size() < kFewestPoints || source.size() < kFewestPoints) return std::nullopt;
@@ -99,7 +111,7 @@ std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pa
   const double half_m = static_cast<double>(reach_m) + 0.5;
   matcher.set_target(stamped,
                      {.half_width_m = half_m, .half_height_m = half_m, .largest_shift_m = kReachM});
-  MatchedPair matched{.by_odometry = motion_by_odometry(pair, correction), .by_scans = {}};
+  MatchedPair matched{.by_odometry = by_odometry, .by_scans = {}};
   const double turn_rad = std::abs(matched.by_odometry.heading_rad);
   const auto peaks = matcher.search(source, Pose2::identity(),
                                     {kReachM, kReachM, std::clamp(2.3 * turn_rad, 0.3, 1.6)});
@@ -392,8 +404,11 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
   if (odometry.is_in_degrees()) correction.heading_unit_rad = pi / 180.0;
   std::vector<MatchedPair> matched = match_all(pairs, beams, correction);
   evidence.pairs = matched.size();
+  const auto tried = std::ranges::count_if(pairs, [&](const ScanPair& pair) {
+    return is_within_reach(motion_by_odometry(pair, correction));
+  });
   evidence.matched_share =
-      pairs.empty() ? 0.0 : static_cast<double>(matched.size()) / static_cast<double>(pairs.size());
+      tried == 0 ? 0.0 : static_cast<double>(matched.size()) / static_cast<double>(tried);
   const std::vector<MatchedPair> turning_pairs = turning(matched);
   evidence.turning_pairs = turning_pairs.size();
   evidence.turn_sign_share = same_sign_share(turning_pairs);

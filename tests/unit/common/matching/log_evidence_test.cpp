@@ -195,6 +195,19 @@ TEST(WeighLog, FindsAScannerThatLooksBackwards) {
   EXPECT_NEAR(std::abs(evidence_of({.looks_rad = pi}).correction.laser_turn_rad), pi, 1e-9);
 }
 
+TEST(WeighLog, ConcludesNothingFromPairsThatAreFartherApartThanItLooks) {
+  const auto evidence_at = [](double step_m) {
+    const auto corridor = scan_at({2.0, -0.5, 0.0}, pi);  // looks the same all along
+    std::vector<ScanPair> pairs;
+    for (int i = 0; i < 20; ++i)
+      pairs.push_back({corridor, corridor, {step_m * i, 0.0, 0.0}, {step_m * (i + 1), 0.0, 0.0}});
+    return weigh_log(pairs, {-0.5 * pi, pi / static_cast<double>(kBeams - 1), 0.0}, {}, 1.0);
+  };
+  EXPECT_EQ(evidence_at(1.0).pairs, 20U);
+  EXPECT_EQ(evidence_at(5.0).pairs, 0U);
+  EXPECT_EQ(evidence_at(5.0).way_scale, 0.0);
+}
+
 TEST(WeighLog, ConcludesNothingFromFewPairs) {
   const ScanPair pair{scan_at({}, pi), scan_at({0.2, 0.0, 0.1}, pi), {}, {0.2, 0.0, -0.1}};
   EXPECT_EQ(weigh_log(std::vector<ScanPair>(3, pair), {-0.5 * pi, pi / 180.0}, {}, 1.0).correction,
