@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-
 #include "common/app/log.hpp"
 #include "common/app/scan_latency.hpp"
 #include "common/app/supervisor.hpp"

@@ -5,7 +5,6 @@
 
 #include "common/app/log.hpp"
 
-
 namespace slammot::app {
 namespace {
 

@@ -37,7 +37,8 @@ std::unique_ptr<WebServer> start_server(const WebServerSettings& settings) {
   try {
     auto server = std::make_unique<WebServer>(settings);
     const bool is_local = is_loopback_address(settings.address);
-    app::log_info("serves http://{}:{}/", is_local ? "localhost" : settings.address, server->port());
+    app::log_info("serves http://{}:{}/", is_local ? "localhost" : settings.address,
+                  server->port());
     if (!is_local) app::log_info("remote addresses add ?token={}", settings.access.token);
     return server;
   } catch (const std::runtime_error& fault) { throw app::StartupFailure(fault.what()); }

@@ -2,9 +2,8 @@
 #include <chrono>
 #include <utility>
 
-
-#include "services/localization/localization_service.hpp"
 #include "common/app/log.hpp"
+#include "services/localization/localization_service.hpp"
 #include "services/localization/localization_service_clock.hpp"
 
 namespace slammot::localization {

@@ -2,7 +2,6 @@
 
 #include "common/app/log.hpp"
 
-
 namespace slammot::localization {
 
 std::optional<StampedSession> SessionFile::look_back() {

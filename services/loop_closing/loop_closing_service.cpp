@@ -2,7 +2,6 @@
 
 #include <utility>
 
-
 #include "common/app/log.hpp"
 #include "services/loop_closing/loop_closing_fields.hpp"
 
@@ -89,7 +88,7 @@ void LoopClosingService::report_connection(flow::SubmapId newest, bool was_conne
   const bool knows = closer_.is_connected();
   if (!knows && was_connected)
     app::log_warn("submap {} is not connected to the first one: searches for it on all islands",
-                 newest.value);
+                  newest.value);
   if (knows && !was_connected) app::log_info("located submap {}", newest.value);
   if (knows) context_.status().clear_trouble("astray");
   else

@@ -130,7 +130,7 @@ void MapStoreService::publish_stored() {
   const std::vector<Store::StoredMap> maps = store_.maps(context_.vehicle_id());
   if (!published_.empty())
     app::log_info("{} submaps in the database, of map {}{}", published_.size(), map_id_.value,
-                 maps.size() > 1 ? names_of(maps) : "");
+                  maps.size() > 1 ? names_of(maps) : "");
   else report_other_vehicles();
   publish_stored_map();
 }
@@ -142,7 +142,8 @@ void MapStoreService::report_other_vehicles() {
   for (const std::string& vehicle : vehicles) names += (names.empty() ? "" : ", ") + vehicle;
   context_.status().counter("other_vehicles") = vehicles.size();
   if (!vehicles.empty())
-    app::log_warn("the database has no map of vehicle {}, but of: {}", context_.vehicle_id(), names);
+    app::log_warn("the database has no map of vehicle {}, but of: {}", context_.vehicle_id(),
+                  names);
 }
 
 /// Publishes the description of the stored map after each change.

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <string>
 
-
 #include "common/app/log.hpp"
 #include "common/wire/segmented_scan.hpp"
 #include "services/tracking/tracking_fields.hpp"
@@ -128,7 +127,7 @@ void TrackingService::prove_journal(const flow::SegmentedScan& first) {
   ++context_.status().counter("taken_up");
   if (is_whole) return app::log_info("goes on from a journal with the scans since then");
   app::log_info("goes on from a journal {:.2f} s before this scan",
-               static_cast<double>(first.stamp_ns - *journal_.saved_ns) * 1e-9);
+                static_cast<double>(first.stamp_ns - *journal_.saved_ns) * 1e-9);
 }
 
 /// Nothing of another drive is known here, if its numbers, its stamps and its map are the same or
