@@ -13,9 +13,9 @@ using Eigen::Vector2d;
 double squared(double value) { return value * value; }
 
 /// Part of the corner depth that beams grazing the side at an angle of this sine do not meet. A cut
-/// at 45 degrees is hidden up to that angle; beyond, beams graze the cut, and few meet it: counted
-/// over cut bodies 8 to 35 m away (docs/decisions/extent-and-class.md).
-double missed_share(double sine) { return std::min(1.0, 5.0 * (1.0 - sine)); }
+/// at 45 degrees is hidden up to that angle; of a quarter circle r (1 - sine) is, with r = 1.7
+/// depths.
+double missed_share(double sine) { return std::min(1.15, 2.0 * (1.0 - sine)); }
 
 /// Mean distance that a side continues beyond its outermost echo without answering.
 double unanswered_m(const AxisView& view, const EndView& end, Edge edge) {

@@ -27,19 +27,11 @@ struct Anchors {
   std::optional<int> width;
 };
 
-/// Rate at which the heading of a box changes.
-struct Turn {
-  double rate_radps = 0.0;
-  double variance = 0.04;           ///< Of the rate [rad^2/s^2].
-  double heading_covariance = 0.0;  ///< Of the rate with the heading [rad^2/s].
-};
-
 /// Extent of an object with straight sides. The footprint holds the posterior of the sizes; the
 /// evidence is kept beside it. Invariant: length and width are those of with_likely_sizes(), given
 /// evidence, corner and road users.
 struct Box : Footprint {
   double heading_variance_rad2 = 10.0;
-  Turn turn;
   bool is_oriented = false;  ///< Which side is the length is known, from the course or because it
                              ///< is long.
   double axis_rad = 0.0;     ///< Direction of the length by the visible sides alone, without the

@@ -46,8 +46,9 @@ Vector2d seen_centre_m(const Outline& outline, const Vector2d& predicted_centre_
 }
 
 void store_contour(Extent& extent, const Observation& observation) {
+  constexpr std::size_t kMostPoints = 64;
   extent.largest_span_m = std::max(extent.largest_span_m, largest_span_m(observation.points_m));
-  const std::size_t stride = 1 + (observation.points_m.size() - 1) / kMostPublishedPoints;
+  const std::size_t stride = 1 + (observation.points_m.size() - 1) / kMostPoints;
   extent.contour_in_odom_m.clear();
   for (std::size_t i = 0; i < observation.points_m.size(); i += stride)
     extent.contour_in_odom_m.push_back(observation.points_m[i].cast<float>());

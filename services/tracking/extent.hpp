@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include "services/tracking/blob.hpp"
-#include "services/tracking/body_contour.hpp"
 #include "services/tracking/box.hpp"
 #include "services/tracking/box_measurement.hpp"
 #include "services/tracking/extent_statistics.hpp"
@@ -45,7 +44,6 @@ struct Extent {
   Outline outline;
   std::vector<Eigen::Vector2f> contour_in_odom_m;  ///< Echoes of the last observation, at most 64,
                                                    ///< at its time.
-  BodyContour body_contour;                        ///< Of a confirmed box.
   double largest_span_m = 0.0;                     ///< Largest span of one observation.
   double range_m = 0.0;                            ///< From the laser at the last observation.
   ResponseRate responses;
@@ -60,9 +58,6 @@ struct Extent {
   const Footprint& footprint() const { return footprint_of(outline); }
   Footprint& footprint() { return footprint_of(outline); }
 };
-
-/// Most points of a published contour.
-inline constexpr std::size_t kMostPublishedPoints = 64;
 
 /// Stores at most 64 echoes of the observation as the contour, and its span.
 void store_contour(Extent& extent, const Observation& observation);

@@ -17,7 +17,6 @@ void redraw(Track& track, const Box& box, const Observation& observation,
   const BoxMeasurement after =
       measure_box(box, supposed_centre_m(box, observation), observation, config);
   track.extent.outline = after.box;
-  track.extent.body_contour.points.clear();
   shift(track, after.centre_m - before_m, config);
   combine(track.kinematics, config);
 }
@@ -76,7 +75,6 @@ void reinitialise_extent(Track& track, const Observation& observation,
   const BoxMeasurement drawn =
       measure_box(box, supposed_centre_m(box, observation), observation, config);
   track.extent.outline = drawn.box;
-  track.extent.body_contour.points.clear();
   shift(track, drawn.centre_m - track.position_m(), config);
   combine(track.kinematics, config);
   track.extent.largest_span_m =

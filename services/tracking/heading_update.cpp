@@ -30,18 +30,13 @@ double sigma_rad(const Side& side, double size_scale) {
   return std::hypot(round_rad, std::min(kMostSigmaRad, kEndsOffM * size_scale / side.length_m));
 }
 
-/// Turns the box by the gained share of the innovation: Kalman filter over heading and turn rate.
+/// Turns the box by the gained share of the innovation.
 void update_heading(Track& track, double off_rad, double variance_rad2,
                     const Observation& observation, const TrackingConfig& config) {
-  Box& box = *track.extent.box();
-  const double S = box.heading_variance_rad2 + variance_rad2;
-  const double gain = box.heading_variance_rad2 / S;
-  const double rate_gain = box.turn.heading_covariance / S;
+  const double gain = track.extent.box()->heading_variance_rad2 /
+                      (track.extent.box()->heading_variance_rad2 + variance_rad2);
   turn(track, gain * off_rad, observation, config);
-  box.turn.rate_radps += rate_gain * off_rad;
-  box.turn.variance -= rate_gain * box.turn.heading_covariance;
-  box.turn.heading_covariance *= 1.0 - gain;
-  box.heading_variance_rad2 *= 1.0 - gain;
+  track.extent.box()->heading_variance_rad2 *= 1.0 - gain;
 }
 
 /// Turns a box by half or by a quarter if it moves backwards or sideways. False if the course is
@@ -51,7 +46,6 @@ bool align_with_course(Track& track, const Course& course, const Observation& ob
   const double off_rad = wrap_angle(course.heading_rad - track.extent.box()->heading_rad);
   if (std::abs(off_rad) > 0.75 * std::numbers::pi) {
     *track.extent.box() = turned_about(*track.extent.box());
-    turn_about(track.extent.body_contour);
   } else if (std::abs(off_rad) > 0.3 * std::numbers::pi) {
     if (course.variance_rad2 > 0.03) return false;
     const Box turned = turned_by_a_quarter(*track.extent.box(), off_rad, config);
@@ -63,34 +57,7 @@ bool align_with_course(Track& track, const Course& course, const Observation& ob
   return true;
 }
 
-/// Random walk of the heading: at one speed, smaller objects turn faster.
-double heading_drift_rad2_per_s(const TrackingConfig& config) {
-  return 0.1 / config.extent.size_scale;
-}
-
 }  // namespace
-
-void predict_heading(Box& box, double speed_mps, double time_s, const TrackingConfig& config) {
-  constexpr double kMostVarianceRad2 = 10.0;
-  constexpr double kRateNoise = 0.1;          // white angular acceleration [rad^2/s^3]
-  constexpr double kMostRateVariance = 0.16;  // [rad^2/s^2]
-  constexpr double kLeastRadiusM = 5.0;       // of a car's turning circle
-  Turn& turn = box.turn;
-  const double most_radps = speed_mps / (kLeastRadiusM * config.extent.size_scale);
-  turn.rate_radps = std::clamp(turn.rate_radps, -most_radps, most_radps);
-  box.heading_rad = wrap_angle(box.heading_rad + time_s * turn.rate_radps);
-  const double drift_rad2 = heading_drift_rad2_per_s(config) * time_s;
-  box.heading_variance_rad2 =
-      std::min(kMostVarianceRad2, box.heading_variance_rad2 + drift_rad2 +
-                                      2.0 * time_s * turn.heading_covariance +
-                                      time_s * time_s * turn.variance);
-  turn.heading_covariance += time_s * turn.variance;
-  turn.variance = std::min(kMostRateVariance, turn.variance + kRateNoise * time_s);
-  const double most_covariance = std::sqrt(turn.variance * box.heading_variance_rad2);
-  turn.heading_covariance = std::min(turn.heading_covariance, most_covariance);
-  box.axis_rad = wrap_angle(box.axis_rad + time_s * turn.rate_radps);
-  box.axis_variance_rad2 = std::min(kMostVarianceRad2, box.axis_variance_rad2 + drift_rad2);
-}
 
 void follow_side(Track& track, const Observation& observation, double time_s,
                  const TrackingConfig& config) {
@@ -133,10 +100,8 @@ void follow_course(Track& track, const Observation& observation, double time_s,
       std::abs(off_axis_rad) + 2.0 * std::sqrt(course.variance_rad2) < 0.5 * kQuarterTurnRad;
   box.is_oriented = box.is_oriented || (is_decisive && course.variance_rad2 < 0.03);
   if (!is_decisive) return;
-  constexpr double kLagS = 0.5;        // of the filtered velocity in a turn
-  constexpr double kSlipRad2 = 0.002;  // the course need not be exactly along the box
-  const double lag_rad = kLagS * box.turn.rate_radps;
-  const double variance_rad2 = course.variance_rad2 + kSlipRad2 + lag_rad * lag_rad;
+  const double variance_rad2 = course.variance_rad2 + 0.002;  // the course need not be exactly
+                                                              // along the box
   track.extent.heading_noise = with_heading(track.extent.heading_noise, off_rad,
                                             box.heading_variance_rad2 + variance_rad2, time_s);
   update_heading(track, off_rad, variance_rad2, observation, config);

@@ -8,9 +8,6 @@ namespace slammot::tracking {
 
 // Each function's precondition: the track is a box. time_s: since the last observation.
 
-/// Predicts heading and turn rate of a box that moves at this speed.
-void predict_heading(Box& box, double speed_mps, double time_s, const TrackingConfig& config);
-
 /// Updates axis and heading by the long visible side, if there is one.
 void follow_side(Track& track, const Observation& observation, double time_s,
                  const TrackingConfig& config);

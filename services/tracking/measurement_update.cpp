@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include "common/association/gating.hpp"
 #include "services/tracking/extent_update.hpp"
 #include "services/tracking/heading_update.hpp"
@@ -73,8 +71,6 @@ void update_position(Track& track, const PositionUpdate& update, double time_s,
   Kinematics& kinematics = track.kinematics;
   const filters::ModelSet models = models_of(kinematics, config);
   shift(track, update.measurement.recentring_m, config);
-  recentre(track.extent.body_contour,
-           Eigen::Rotation2Dd(-track.footprint().heading_rad) * update.measurement.recentring_m);
   filters::imm_loosen(models, kinematics.mixture, update.measurement.step_covariance_m2);
   track.extent.outline = update.measurement.outline;
   const Matrix2d R =
@@ -102,13 +98,6 @@ void update_consistency(Track& track, double nis, double time_s, const Observati
   if (track.existence.confirmed && extent.box() != nullptr)
     extent.outline_error = with_outline(extent.outline_error, off_sides_m,
                                         observation.points_m.size(), extent.range_m, config);
-}
-
-void update_contour(Track& track, const Observation& observation, const TrackingConfig& config) {
-  constexpr double kPieceM = 0.5;
-  if (!track.existence.confirmed || track.extent.box() == nullptr) return;
-  add_echoes(track.extent.body_contour, track.footprint(), track.position_m(), observation.points_m,
-             kPieceM * config.extent.size_scale);
 }
 
 void update_travel(Track& track, const TrackingConfig& config) {
@@ -163,7 +152,6 @@ bool update(Track& track, std::int64_t stamp_ns, const Observation& observation,
   } else {
     become_box_if_large(track, observation, config);
   }
-  update_contour(track, observation, config);
   update_consistency(track, of_position.distance2, unseen_s, observation, config);
   update_motion_state(track, stamp_ns, config);
   update_class(track, unseen_s, config);

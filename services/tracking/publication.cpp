@@ -81,12 +81,7 @@ void publish_extent(const Track& track, flow::TrackedObject& object) {
                                    : course_of(track.kinematics).heading_rad;
   object.length_m = footprint.length.value_m;
   object.width_m = footprint.width.value_m;
-  const BodyContour& contour = track.extent.body_contour;
-  if (track.extent.box() == nullptr || contour.points.empty())
-    object.contour_in_odom_m = track.extent.contour_in_odom_m;
-  else
-    put_contour(contour, footprint.heading_rad, track.position_m(), kMostPublishedPoints,
-                object.contour_in_odom_m);
+  object.contour_in_odom_m = track.extent.contour_in_odom_m;
 }
 
 }  // namespace

@@ -92,13 +92,9 @@ struct StateParts {
     auto& [length, width] = anchors;
     to(length, width);
   }
-  static void visit(auto& to, memory::Like<Turn> auto& turn) {
-    auto& [rate_radps, variance, heading_covariance] = turn;
-    to(rate_radps, variance, heading_covariance);
-  }
   static void visit(auto& to, memory::Like<Box> auto& box) {
     visit_footprint(to, box);
-    to(box.heading_variance_rad2, box.turn, box.is_oriented, box.axis_rad, box.axis_variance_rad2,
+    to(box.heading_variance_rad2, box.is_oriented, box.axis_rad, box.axis_variance_rad2,
        box.evidence, box.corner_seen, box.kind, box.anchors);
   }
   static void visit(auto& to, memory::Like<ResponseRate> auto& rate) {
@@ -114,16 +110,10 @@ struct StateParts {
     auto& [off_sides_s, rejected_s, oversized_s] = misfit;
     to(off_sides_s, rejected_s, oversized_s);
   }
-  static void visit(auto& to, memory::Like<ContourPoint> auto& point) {
-    auto& [in_box_m, weight, piece] = point;
-    to(in_box_m, weight, piece);
-  }
-  static void visit(auto& to, memory::Like<BodyContour> auto& contour) { to(contour.points); }
   static void visit(auto& to, memory::Like<Extent> auto& extent) {
-    auto& [outline, contour, body_contour, largest_span_m, range_m, responses, heading_noise,
-           outline_error, misfit] = extent;
-    to(outline, contour, body_contour, largest_span_m, range_m, responses, heading_noise,
-       outline_error, misfit);
+    auto& [outline, contour, largest_span_m, range_m, responses, heading_noise, outline_error,
+           misfit] = extent;
+    to(outline, contour, largest_span_m, range_m, responses, heading_noise, outline_error, misfit);
   }
 
   // Existence and class.

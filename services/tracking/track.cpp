@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/tracking/heading_update.hpp"
-
 namespace slammot::tracking {
 namespace {
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
+
+/// Random walk of the heading: at one speed, smaller objects turn faster.
+double heading_drift_rad2_per_s(const TrackingConfig& config) {
+  return 0.1 / config.extent.size_scale;
+}
 
 /// The coordinated turn is linearised about the velocity, which must be well known; pedestrians and
 /// tentative tracks have no wheels that tie the course to the speed.
@@ -80,10 +83,10 @@ void predict(Track& track, double time_s, const TrackingConfig& config) {
     combine(kinematics, config);
   }
   if (Box* box = track.extent.box()) {
-    // Until it is known which way it drives, a changing heading is an error of the heading; what is
-    // hidden is expected to go straight on.
-    if (!track.existence.confirmed || !box->is_oriented || track.history.is_unseen) box->turn = {};
-    predict_heading(*box, track.velocity_mps().norm(), time_s, config);
+    box->heading_variance_rad2 =
+        std::min(10.0, box->heading_variance_rad2 + heading_drift_rad2_per_s(config) * time_s);
+    box->axis_variance_rad2 =
+        std::min(10.0, box->axis_variance_rad2 + heading_drift_rad2_per_s(config) * time_s);
   }
 }
 

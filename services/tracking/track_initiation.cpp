@@ -17,8 +17,6 @@ void clear(Track& track) {
   Track empty;
   empty.extent.contour_in_odom_m = std::move(track.extent.contour_in_odom_m);
   empty.extent.contour_in_odom_m.clear();
-  empty.extent.body_contour = std::move(track.extent.body_contour);
-  empty.extent.body_contour.points.clear();
   empty.history = emptied(std::move(track.history));
   track = std::move(empty);
 }

@@ -8,7 +8,7 @@
 namespace slammot::tracking {
 namespace {
 
-constexpr std::uint64_t kMark = 0x747261636b657232;  // "tracker2": the digit counts the forms
+constexpr std::uint64_t kMark = 0x747261636b657231;  // "tracker1": the digit counts the forms
 
 /// False for a track that refers to a scanner which is none.
 bool is_sound(const Track& track, std::size_t scanners) {
