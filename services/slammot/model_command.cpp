@@ -78,7 +78,8 @@ std::int64_t microseconds(std::int64_t stamp_ns) { return (stamp_ns + 500) / 100
 /// The hits of the true scanner with the same stamps and beams; null if there is none.
 const std::map<std::int64_t, evaluator::HitsOfMovers>* hits_of(
     const std::string& scanner, const ModelOfLog& built, const evaluator::HitsByScanner& truth) {
-  for (const auto& [name, by_stamp] : truth) {
+  for (const auto& scanner_and_hits : truth) {
+    const auto& by_stamp = scanner_and_hits.second;
     const bool fits = std::ranges::all_of(built.scans, [&](const ModelledScan& scan) {
       if (scan.scanner != scanner) return true;
       const auto hits = by_stamp.find(microseconds(scan.stamp_ns));
