@@ -54,6 +54,18 @@ void ServiceBoard::take(const wire::Heartbeat& heartbeat, Time now) {
   entry.instance = heartbeat.name.instance;
   entry.state = heartbeat.state;
   entry.last_beat = now;
+  entry.started_ns = heartbeat.started_ns;
+  entry.process_number = heartbeat.process_number;
+  forget_earlier_role_of(entry);
+}
+
+/// A standby that leads has another name from then on.
+void ServiceBoard::forget_earlier_role_of(const Entry& entry) {
+  std::erase_if(entries_, [&](const auto& named) {
+    const Entry& other = named.second;
+    return other.service == entry.service && other.instance != entry.instance &&
+           other.started_ns == entry.started_ns && other.process_number == entry.process_number;
+  });
 }
 
 /// A retained status may be of a service that died long ago: only heartbeats tell its age.
@@ -64,6 +76,8 @@ void ServiceBoard::take(const wire::ServiceStatus& status, Time now) {
     entry.service = status.name.service;
     entry.instance = status.name.instance;
     entry.last_beat = now;
+    entry.started_ns = status.started_ns;
+    entry.process_number = status.process_number;
   }
   entry.state = status.state;
   entry.status = status;

@@ -23,6 +23,8 @@ class ServiceBoard {
     std::string instance;
     wire::ServiceState state = wire::ServiceState::kStarting;
     Time last_beat;
+    std::int64_t started_ns = 0;
+    std::uint32_t process_number = 0;
     std::optional<wire::ServiceStatus> status;
 
     bool is_silent(Time now) const { return now - last_beat > kPatience; }
@@ -39,6 +41,8 @@ class ServiceBoard {
   std::vector<std::string> warnings(Time now) const;
 
  private:
+  void forget_earlier_role_of(const Entry& entry);
+
   using Key = std::pair<std::string, std::string>;  ///< Service and instance.
   std::map<Key, Entry> entries_;
 };
