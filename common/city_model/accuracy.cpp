@@ -4,19 +4,15 @@
 #include <cmath>
 #include <map>
 
+#include "common/geometry/segment.hpp"
+
 namespace slammot::city_model {
 namespace {
 
 using geometry::Vector2;
 
 double distance_m(const TrueSurface& surface, const Vector2& point) {
-  const Vector2 along = surface.to_m - surface.from_m;
-  const double length_squared = along.squaredNorm();
-  const double fraction =
-      length_squared > 0.0
-          ? std::clamp((point - surface.from_m).dot(along) / length_squared, 0.0, 1.0)
-          : 0.0;
-  return (surface.from_m + fraction * along - point).norm();
+  return (geometry::nearest_on_segment(surface.from_m, surface.to_m, point) - point).norm();
 }
 
 struct Nearest {

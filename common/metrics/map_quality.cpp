@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/segment.hpp"
+
 namespace slammot::metrics {
 namespace {
 
@@ -44,12 +46,7 @@ void for_each_cell(const OccupancyCells& map, const CellRange& range, Visit visi
 }
 
 double distance_m(const Vector2& point_m, const WallSegment& wall) {
-  const Vector2 along_m = wall.to_m - wall.from_m;
-  const double length_m2 = along_m.squaredNorm();
-  const double fraction =
-      length_m2 > 0.0 ? std::clamp((point_m - wall.from_m).dot(along_m) / length_m2, 0.0, 1.0)
-                      : 0.0;
-  return (wall.from_m + fraction * along_m - point_m).norm();
+  return (geometry::nearest_on_segment(wall.from_m, wall.to_m, point_m) - point_m).norm();
 }
 
 /// Calls visit(point) along the wall, at most step_m apart, both ends too.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "common/geometry/segment.hpp"
+
 namespace slammot::simulation {
 namespace {
 
@@ -60,16 +62,10 @@ HalfPlane permitted_beside(const Disc& self, const Disc& other, double dt_s) {
   return {self.velocity_in_world_mps + share * out.change, out.normal};
 }
 
-Vector2 nearest_on(const Segment& segment, const Vector2& place) {
-  const Vector2 along = segment.b - segment.a;
-  const double length2 = along.squaredNorm();
-  if (length2 == 0.0) return segment.a;
-  return segment.a + std::clamp((place - segment.a).dot(along) / length2, 0.0, 1.0) * along;
-}
-
 std::optional<HalfPlane> permitted_beside(const Disc& self, const Segment& wall) {
   constexpr double kNear_m = 2.0;
-  const Vector2 away = self.centre_in_world - nearest_on(wall, self.centre_in_world);
+  const Vector2 away =
+      self.centre_in_world - geometry::nearest_on_segment(wall.a, wall.b, self.centre_in_world);
   const double distance_m = away.norm();
   if (distance_m > kNear_m || distance_m == 0.0) return std::nullopt;
   const Vector2 normal = away / distance_m;
