@@ -36,6 +36,9 @@ struct MovingObject {
 /// apart from each other; of a bicycle its frame and the rider's legs.
 Outline vehicle_outline(ObjectClass kind, const BoxSize& size);
 
+inline constexpr double kPedestrianStride_m = 1.45;  ///< Two steps at normal speed.
+inline constexpr double kPedestrianStep_m = 0.55;    ///< Between the feet when furthest apart.
+
 /// Two legs. phase_rad runs through one full stride (two steps) in 2 pi; step_m is the distance
 /// between the feet when furthest apart.
 Outline pedestrian_outline(double phase_rad, double step_m);

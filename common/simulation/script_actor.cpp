@@ -12,9 +12,6 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-constexpr double kStride_m = 1.45;
-constexpr double kStep_m = 0.55;
-
 double speed_at(const std::vector<SpeedAt>& profile, double time_s) {
   return piecewise_linear(profile, &SpeedAt::at_s, &SpeedAt::mps, time_s);
 }
@@ -52,7 +49,7 @@ void ScriptActor::advance(double time_s, double dt_s) {
   if (path_in_world_.length_m() <= 0.0) return;
   speed_mps_ = scripted_speed_mps(time_s, dt_s);
   ahead_m_ += speed_mps_ * dt_s;
-  phase_rad_ += 2.0 * std::numbers::pi * speed_mps_ * dt_s / kStride_m;
+  phase_rad_ += 2.0 * std::numbers::pi * speed_mps_ * dt_s / kPedestrianStride_m;
 }
 
 void ScriptActor::walk(double time_s, double dt_s, std::span<const Disc> others,
@@ -77,8 +74,9 @@ MovingObject ScriptActor::object(double time_s) const {
   now.speed_mps = speed_mps_;
   if (!is_there(time_s)) return now;
   now.outline_in_object =
-      is_pedestrian() ? pedestrian_outline(phase_rad_, kStep_m * std::min(1.5, speed_mps_ / 1.35))
-                      : outline_in_object_;
+      is_pedestrian()
+          ? pedestrian_outline(phase_rad_, kPedestrianStep_m * std::min(1.5, speed_mps_ / 1.35))
+          : outline_in_object_;
   return now;
 }
 
@@ -130,7 +128,7 @@ void ScriptActor::leave_way(const Vector2& velocity_mps, double dt_s) {
   const double progress_m = velocity_mps.dot(direction_of(on_way)) * dt_s;
   ahead_m_ += std::clamp(progress_m, 0.0, path_in_world_.length_m() - ahead_m_);
   speed_mps_ = velocity_mps.norm();
-  phase_rad_ += 2.0 * std::numbers::pi * speed_mps_ * dt_s / kStride_m;
+  phase_rad_ += 2.0 * std::numbers::pi * speed_mps_ * dt_s / kPedestrianStride_m;
   const double heading_rad = speed_mps_ > kTurns_mps
                                  ? std::atan2(velocity_mps.y(), velocity_mps.x())
                              : detour_ ? detour_->heading_rad

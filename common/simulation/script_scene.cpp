@@ -16,9 +16,6 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-constexpr double kStride_m = 1.45;
-constexpr double kStep_m = 0.55;
-
 /// An object that moves uniformly between recorded places.
 MovingObject object_at(const RecordedObject& recorded, int id, double time_s) {
   const auto& places = recorded.places;
@@ -39,9 +36,9 @@ MovingObject object_at(const RecordedObject& recorded, int id, double time_s) {
         interpolate(last.world_from_object, after->world_from_object, fraction);
     object.speed_mps += fraction * (after->speed_mps - last.speed_mps);
   }
-  const double phase_rad = 2.0 * std::numbers::pi * time_s * object.speed_mps / kStride_m;
+  const double phase_rad = 2.0 * std::numbers::pi * time_s * object.speed_mps / kPedestrianStride_m;
   object.outline_in_object = recorded.kind == ObjectClass::pedestrian
-                                 ? pedestrian_outline(phase_rad, kStep_m)
+                                 ? pedestrian_outline(phase_rad, kPedestrianStep_m)
                                  : vehicle_outline(recorded.kind, object.size);
   return object;
 }

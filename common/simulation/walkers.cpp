@@ -10,10 +10,8 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-constexpr double kPavement_m = 8.15;  ///< From the street's centre line to the middle of the
-                                      ///< pavement.
-constexpr double kStride_m = 1.45;    ///< Two steps at normal speed.
-constexpr double kStep_m = 0.55;
+constexpr double kPavement_m = 8.15;      ///< From the street's centre line to the middle of the
+                                          ///< pavement.
 constexpr double kPersonalSpace_m = 0.9;  ///< People stop this far from a vehicle in their way.
 constexpr double kPatience_s = 3.0;
 constexpr double kSidestep_mps = 0.6;
@@ -179,7 +177,7 @@ void Walkers::advance(Group& group, double dt_s, const StreetView& street) {
   const double step_m = group.speed_mps * dt_s;
   group.position_in_world +=
       step_m * Vector2{std::cos(group.heading_rad), std::sin(group.heading_rad)};
-  group.phase_rad += 2.0 * std::numbers::pi * step_m / kStride_m;
+  group.phase_rad += 2.0 * std::numbers::pi * step_m / kPedestrianStride_m;
   if (ahead.norm() < kArrived_m) choose_way(group);
 }
 
@@ -214,7 +212,7 @@ std::vector<MovingObject> Walkers::objects(int first_id) const {
       const Vector2 place = world_from_group * group.members_in_group[i];
       person.world_from_object = {place.x(), place.y(), group.heading_rad};
       person.speed_mps = group.speed_mps;
-      const double step_m = kStep_m * std::min(1.5, group.speed_mps / config_.speed_mps);
+      const double step_m = kPedestrianStep_m * std::min(1.5, group.speed_mps / config_.speed_mps);
       person.outline_in_object =
           pedestrian_outline(group.phase_rad + 2.0 * static_cast<double>(i), step_m);
       objects.push_back(std::move(person));
