@@ -62,12 +62,6 @@ std::vector<std::string> names_of(const std::vector<ScannerPlan>& scanners) {
   return names;
 }
 
-std::string joined(const std::vector<ScannerPlan>& scanners) {
-  std::string names;
-  for (const ScannerPlan& scanner : scanners) names += (names.empty() ? "" : ", ") + scanner.name;
-  return names;
-}
-
 /// A wish for a scanner that does not scan the plane, or that the log does not have.
 std::optional<Error> find_fault(const ScannerWish& wish, const CarmenSurvey& survey) {
   const std::vector<ScannerPlan> vertical = survey.profile_scanners(wish);
@@ -87,7 +81,8 @@ std::optional<Error> find_fault(const ScannerWish& wish, const CarmenSurvey& sur
   if (is_vertical(wish.main))
     return Error{"--scan-topic " + wish.main + ": it scans a vertical profile"};
   if (survey.scanners(wish).empty() && !vertical.empty())
-    return Error{"no scanner scans the plane: " + joined(vertical) + " scans a vertical profile"};
+    return Error{"no scanner scans the plane: " + enumerated(vertical) +
+                 " scans a vertical profile"};
   return std::nullopt;
 }
 

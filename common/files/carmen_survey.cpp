@@ -92,13 +92,17 @@ void set_tilt(std::string_view what, double value, sensing::Tilt& tilt) {
 
 }  // namespace
 
-std::optional<Error> select_scanners(const std::vector<std::string>& wanted,
-                                     std::vector<ScannerPlan>& scanners) {
+std::string enumerated(const std::vector<ScannerPlan>& scanners) {
   std::string names;
   for (const ScannerPlan& scanner : scanners) names += (names.empty() ? "" : ", ") + scanner.name;
+  return names;
+}
+
+std::optional<Error> select_scanners(const std::vector<std::string>& wanted,
+                                     std::vector<ScannerPlan>& scanners) {
   for (const std::string& name : wanted) {
     if (std::ranges::find(scanners, name, &ScannerPlan::name) == scanners.end())
-      return Error{"no scanner " + name + ": there are " + names};
+      return Error{"no scanner " + name + ": there are " + enumerated(scanners)};
   }
   if (!wanted.empty())
     std::erase_if(scanners, [&](const ScannerPlan& scanner) {

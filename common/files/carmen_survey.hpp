@@ -83,6 +83,9 @@ struct ScannerWish {
   std::vector<VerticalScanner> vertical = {};  ///< As TopicOptions::vertical.
 };
 
+/// Their names with commas between them.
+std::string enumerated(const std::vector<ScannerPlan>& scanners);
+
 /// Keeps the named scanners, in the order of `scanners`; all if no name is given. For an unknown
 /// name, one line with the known ones.
 std::optional<Error> select_scanners(const std::vector<std::string>& wanted,
