@@ -122,6 +122,10 @@ std::optional<std::vector<double>> numbers(std::span<const std::string_view> fie
 
 std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
+std::filesystem::path with_ending(const std::filesystem::path& prefix, std::string_view ending) {
+  return prefix.string() + std::string(ending);
+}
+
 std::optional<std::filesystem::path> plain_or_gz(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) return path;

@@ -40,6 +40,9 @@ std::optional<std::vector<double>> numbers(std::span<const std::string_view> fie
 /// Converts seconds to nanoseconds.
 std::int64_t to_ns(double seconds);
 
+/// PREFIX with an ending such as ".walls.csv".
+std::filesystem::path with_ending(const std::filesystem::path& prefix, std::string_view ending);
+
 /// The file or, if it does not exist, the file with ".gz" appended; nullopt if neither exists.
 std::optional<std::filesystem::path> plain_or_gz(const std::filesystem::path& path);
 

@@ -1,11 +1,11 @@
 #include "services/evaluator/truth_files.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <unordered_map>
 
+#include "services/evaluator/hit_runs.hpp"
 #include "services/evaluator/table_file.hpp"
 
 namespace slammot::evaluator {
@@ -16,8 +16,6 @@ using files::Result;
 using std::filesystem::path;
 
 constexpr double kLongestWallM = 1e5;
-
-path with_ending(const path& prefix, const char* ending) { return prefix.string() + ending; }
 
 void sort_by_stamp(metrics::Trajectory& trajectory) {
   std::stable_sort(trajectory.begin(), trajectory.end(),
@@ -72,25 +70,16 @@ std::optional<Error> read_objects(const path& file, Truth& truth, IndexOfId& ind
 
 constexpr std::size_t kMostBeams = 100'000;
 
-/// Parses "hit*beams"; nullopt for anything else.
-std::optional<HitsAt::Run> parse_run(std::string_view text, const IndexOfId& index_of_id) {
-  const std::size_t star = text.find('*');
-  if (star == std::string_view::npos) return std::nullopt;
-  const std::string_view hit = text.substr(0, star);
-  HitsAt::Run run;
-  const auto [end, fault] =
-      std::from_chars(text.data() + star + 1, text.data() + text.size(), run.beams);
-  if (fault != std::errc() || end != text.data() + text.size() || run.beams == 0 ||
-      run.beams > kMostBeams)
-    return std::nullopt;
+std::optional<metrics::BeamHit> hit_named(std::string_view hit, const IndexOfId& index_of_id) {
   using On = metrics::BeamHit::On;
-  if (hit == "-1") run.hit.on = On::kNothing;
-  else if (hit == "0") run.hit.on = On::kStationary;
-  else if (hit == "-2") run.hit.on = On::kSeveral;
+  metrics::BeamHit named;
+  if (hit == "-1") named.on = On::kNothing;
+  else if (hit == "0") named.on = On::kStationary;
+  else if (hit == "-2") named.on = On::kSeveral;
   else if (const auto known = index_of_id.find(std::string(hit)); known != index_of_id.end())
-    run.hit = {On::kObject, known->second};
+    named = {On::kObject, known->second};
   else return std::nullopt;
-  return run;
+  return named;
 }
 
 std::optional<Error> read_hits(const path& file, const IndexOfId& index_of_id, Truth& truth) {
@@ -102,18 +91,12 @@ std::optional<Error> read_hits(const path& file, const IndexOfId& index_of_id, T
     const auto stamp = numbers(fields.first(1));
     if (!stamp) return "the timestamp is not a number";
     HitsAt at{to_ns(stamp->front()), {}};
-    std::size_t beams = 0;
-    std::string_view rest = fields[2];
-    while (!rest.empty()) {
-      const std::size_t end = std::min(rest.find(' '), rest.size());
-      const auto run = parse_run(rest.substr(0, end), index_of_id);
-      if (!run)
-        return "not a run of hits, or of an object that objects.csv does not have: " +
-               std::string(rest.substr(0, end));
-      if ((beams += run->beams) > kMostBeams) return "more beams than any scanner has";
-      at.runs.push_back(*run);
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
+    RowFault malformed = parse_hit_runs(fields[2], kMostBeams, [&](const HitRun& run) {
+      const auto hit = hit_named(run.hit, index_of_id);
+      if (hit) at.runs.push_back({*hit, run.beams});
+      return hit.has_value();
+    });
+    if (malformed) return malformed;
     truth.hits->push_back(std::move(at));
     return std::nullopt;
   });
