@@ -169,11 +169,7 @@ int write(const Job& job, const BenchOptions& options, const files::RunRecord& r
                  duration_s);
     return kExitInterrupted;
   }
-  if (!report.faults.is_cut) return kExitDone;
-  std::fprintf(stderr,
-               "slammot: %s is cut off or damaged: only the readable part was processed%s\n",
-               options.input.c_str(), where_damaged(report.faults).c_str());
-  return kExitLogIsCut;
+  return report_damage(options.input, report.faults);
 }
 
 /// Services read recorded drives only: records a simulated drive as truth.log, with its ground

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/files/carmen_log.hpp"
+#include "common/files/failure.hpp"
 #include "common/files/log_findings.hpp"
 #include "common/files/log_profile.hpp"
 #include "services/ingest/topic_arguments.hpp"
@@ -36,10 +37,7 @@ int check(const CheckOptions& options) {
   files::CarmenLogOptions log_options;
   log_options.topics = options.topics;
   auto log = files::CarmenLog::open(options.log, log_options);
-  if (!log) {
-    std::fprintf(stderr, "slammot: %s\n", log.error().message.c_str());
-    return kExitFault;
-  }
+  if (!log) return files::fail(log.error());
   const files::LogPlan& plan = log->plan();
   const files::ProfileChoice profile = files::choose_profile(plan.figures);
   std::fputs(files::describe_log(plan).c_str(), stdout);

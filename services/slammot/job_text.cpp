@@ -1,12 +1,14 @@
 #include "services/slammot/job_text.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "common/files/georeference_findings.hpp"
 #include "common/files/log_findings.hpp"
 #include "common/files/odometry_findings.hpp"
 #include "common/files/text.hpp"
+#include "services/slammot/command_line.hpp"
 #include "services/slammot/implementations.hpp"
 
 namespace slammot {
@@ -115,6 +117,14 @@ std::string describe_outcome(const files::RunRecord& record, const files::RunRep
 
 std::string where_damaged(const files::LogFaults& faults) {
   return faults.damage.empty() ? std::string() : " (" + faults.damage + ")";
+}
+
+int report_damage(const std::filesystem::path& log, const files::LogFaults& faults) {
+  if (!faults.is_cut) return kExitDone;
+  std::fprintf(stderr,
+               "slammot: %s is cut off or damaged: only the readable part was processed%s\n",
+               log.c_str(), where_damaged(faults).c_str());
+  return kExitLogIsCut;
 }
 
 }  // namespace slammot

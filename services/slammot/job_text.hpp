@@ -22,4 +22,8 @@ std::string describe_outcome(const files::RunRecord& record, const files::RunRep
 /// Place of the damage, such as " (the chunk at byte 1234 does not unpack)"; empty if unknown.
 std::string where_damaged(const files::LogFaults& faults);
 
+/// Says on stderr that the log is cut off or damaged, if it is. Returns the exit code of a command
+/// that has processed it.
+int report_damage(const std::filesystem::path& log, const files::LogFaults& faults);
+
 }  // namespace slammot

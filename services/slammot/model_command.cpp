@@ -18,6 +18,7 @@
 #include "services/evaluator/truth_files.hpp"
 #include "services/ingest/topic_arguments.hpp"
 #include "services/slammot/command_line.hpp"
+#include "services/slammot/job_text.hpp"
 #include "services/slammot/model_log.hpp"
 
 namespace slammot {
@@ -183,9 +184,9 @@ std::optional<Error> complete(ModelOptions& options) {
 }
 
 int make_model(ModelOptions options) {
-  if (const auto fault = complete(options)) return files::fail(*fault);
   const auto result = evaluator::read_result(options.result);
   if (!result) return files::fail(result.error());
+  if (const auto fault = complete(options)) return files::fail(*fault);
   const auto built = model_of(*result, options.input);
   if (!built) return files::fail(built.error());
   print(built->model);
@@ -202,7 +203,7 @@ int make_model(ModelOptions options) {
   if (const auto fault = files::write_file_atomically(json, figures.dump(2) + "\n"))
     return files::fail(*fault);
   std::printf("%s\n", options.output.c_str());
-  return kExitDone;
+  return report_damage(options.input.log, built->faults);
 }
 
 }  // namespace

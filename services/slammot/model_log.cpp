@@ -9,15 +9,8 @@ namespace {
 
 using files::Error;
 
-std::string names_of(const std::vector<files::ScannerPlan>& scanners) {
-  std::string names;
-  for (const files::ScannerPlan& scanner : scanners)
-    names += (names.empty() ? "" : ", ") + scanner.name;
-  return names;
-}
-
 Error no_vertical_scanner(const ModelInput& input, const files::LogPlan& plan) {
-  std::string names = names_of(plan.scanners);
+  std::string names = files::enumerated(plan.scanners);
   for (const std::string& name : plan.unplaced_scanners) names += ", " + name;
   return Error{input.log.string() + ": no scanner of vertical profiles by the log (its scanners: " +
                names + "); --vertical NAME=AHEAD,LEFT,UP,ROLL,PITCH,HEADING states one"};
@@ -80,6 +73,7 @@ files::Result<ModelOfLog> model_of(const evaluator::RunResult& result, const Mod
     model.add(*scan, *plan->profile_mounting);
   }
   built.model = model.finish();
+  built.faults = log->faults();
   if (built.model.counts.scans == built.model.counts.scans_without_pose)
     return Error{input.log.string() +
                  ": no vertical scan within the trajectory of the result: not the log of that run"};

@@ -29,6 +29,7 @@ struct ModelOfLog {
   city_model::CityModel model;
   std::vector<ModelledScan> scans;
   std::vector<files::ScannerPlan> scanners;
+  files::LogFaults faults;  ///< Of the log.
 };
 
 /// Trajectories, boxes of tracks where they were seen, and SO-map of a result.

@@ -149,11 +149,7 @@ int report_end(const JobOptions& options, const files::RunReport& report, const 
                  driven.duration_s);
     return kExitInterrupted;
   }
-  if (!report.faults.is_cut) return kExitDone;
-  std::fprintf(stderr,
-               "slammot: %s is cut off or damaged: only the readable part was processed%s\n",
-               options.input.c_str(), where_damaged(report.faults).c_str());
-  return kExitLogIsCut;
+  return report_damage(options.input, report.faults);
 }
 
 /// Continues the stored map, if one is given.

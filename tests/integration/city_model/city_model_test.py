@@ -90,6 +90,16 @@ class CityModel(unittest.TestCase):
         given = json.loads(output.with_suffix(".json").read_text())
         self.assertAlmostEqual(given["points"] / self.figures()["points"], 1.0, delta=0.001)  # the log rounds angles
 
+    def test_the_readable_part_of_a_log_that_is_cut_is_used_and_said(self):
+        whole = (self.result / "truth.log.gz").read_bytes()
+        cut = self.work / "cut.log.gz"
+        cut.write_bytes(whole[:len(whole) // 2])
+        output = self.work / "cut.ply"
+        stderr = self.call("model", "--result", self.result, "--input", cut, "--output", output, code=3).stderr
+        self.assertIn("cut.log.gz is cut off or damaged: only the readable part was processed", stderr)
+        self.assertEqual(stderr.count("\n"), 1)
+        self.assertTrue(0 < json.loads(output.with_suffix(".json").read_text())["points"] < self.figures()["points"])
+
     def test_wrong_input_is_told_in_one_line(self):
         other = self.work / "other.log"
         other.write_text("FLASER 3 1.0 2.0 3.0 0 0 0 0 0 0 5.0 host 5.0\n" * 3)
