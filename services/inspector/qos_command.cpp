@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/failure.hpp"
 #include "services/inspector/bus_view.hpp"
 #include "services/inspector/calls.hpp"
 #include "services/inspector/qos_report.hpp"
@@ -19,10 +20,7 @@ int report(const BusOptions& options, const std::string& word) {
   std::set<std::string> topics = view.topic_names();
   if (!word.empty()) {
     const auto topic = topic_meant(word, topics);
-    if (!topic) {
-      std::fprintf(stderr, "slammot: %s\n", unknown_topic(word, topics).c_str());
-      return kExitFault;
-    }
+    if (!topic) return files::fail(unknown_topic(word, topics));
     topics = {*topic};
   }
   std::size_t apart = 0;

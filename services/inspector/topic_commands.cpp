@@ -13,6 +13,7 @@
 
 #include "common/app/stop_signal.hpp"
 #include "common/files/decimal.hpp"
+#include "common/files/failure.hpp"
 #include "services/inspector/bus_options.hpp"
 #include "services/inspector/bus_view.hpp"
 #include "services/inspector/calls.hpp"
@@ -38,10 +39,7 @@ constexpr std::size_t kMostElements = 10;  ///< Of a list, in a line of `echo`.
 /// Watches the topic of the options; an exit code if that cannot be.
 std::optional<int> watch(BusView& view, TopicOptions& options) {
   const auto topic = topic_meant(options.topic, view.topic_names());
-  if (!topic) {
-    std::fprintf(stderr, "slammot: %s\n", unknown_topic(options.topic, view.topic_names()).c_str());
-    return kExitFault;
-  }
+  if (!topic) return files::fail(unknown_topic(options.topic, view.topic_names()));
   options.topic = *topic;
   if (view.watch(*topic)) return std::nullopt;
   std::fprintf(stderr, "slammot: no writer of %s tells its type\n", topic->c_str());

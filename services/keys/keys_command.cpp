@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/failure.hpp"
 #include "services/keys/key_folder.hpp"
 
 namespace slammot::keys {
@@ -18,10 +19,7 @@ struct Options {
   int identity_days = 365;
 };
 
-int report(const std::optional<files::Error>& fault) {
-  if (fault) std::fprintf(stderr, "slammot: %s\n", fault->message.c_str());
-  return fault ? 1 : 0;
-}
+int report(const std::optional<files::Error>& fault) { return fault ? files::fail(*fault) : 0; }
 
 /// Names become names of files and parts of certificates.
 std::string fault_of_name(const std::string& name) {
