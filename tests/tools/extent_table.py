@@ -17,11 +17,9 @@ import concurrent.futures
 import csv
 import math
 import pathlib
-import shutil
-import subprocess
 import sys
 
-from tables import replaced_between, seeds_in
+from tables import evaluated_run, replaced_between, seeds_in
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BEGIN = "<!-- extents: written by tests/tools/extent_table.py --write -->"
@@ -42,23 +40,9 @@ def rows_in(path, seed):
 def evaluated(seed, options):
     """The rows of one run; None if it fails, with the reason on stderr."""
     folder = pathlib.Path(options.output) / f"{options.scenario}-{seed}"
-    if options.read:
-        return rows_in(folder / "vehicle_boxes.csv", seed)
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    run = [options.binary, "run", "--scenario", options.scenario, "--seed", str(seed), "--output", folder, "--no-report"]
-    if options.config:
-        (folder / "settings.textproto").write_text(options.config)
-        run += ["--config", folder / "settings.textproto"]
-    for command in (run, [options.binary, "eval", "--result", folder, "--truth", folder / "truth", "--boxes"]):
-        ended = subprocess.run([str(word) for word in command], capture_output=True, text=True)
-        if ended.returncode != 0:
-            print(f"{options.scenario}, seed {seed}: exit code {ended.returncode}: {ended.stderr.strip()}", file=sys.stderr)
-            return None
-    for path in folder.iterdir():
-        if path.name not in KEPT and not options.keep:
-            path.unlink()
-    return rows_in(folder / "vehicle_boxes.csv", seed)
+    if not options.read:
+        folder = evaluated_run(options, options.scenario, seed, kept=None if options.keep else KEPT, run=["--no-report"], evaluate=["--boxes"])
+    return rows_in(folder / "vehicle_boxes.csv", seed) if folder else None
 
 
 def quantile(values, part):

@@ -1,16 +1,14 @@
 """The table of extents: rows pooled over runs."""
 
-import contextlib
-import io
 import pathlib
 import sys
-import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 import extent_table
+from table_case import TableCase, cells
 
 PROGRAM = """#!/usr/bin/env python3
 import pathlib, sys
@@ -31,26 +29,9 @@ else:
 """
 
 
-def cells(text):
-    """The cells of each line of a table by its first one."""
-    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("|")]
-    return {line[0]: line[1:] for line in lines}
-
-
-class ExtentTable(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.program = self.folder / "program"
-        self.program.write_text(PROGRAM)
-        self.program.chmod(0o755)
-
-    def printed(self, *arguments):
-        out, errors = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            code = extent_table.main(["--binary", str(self.program), "--output", str(self.folder / "out"), *arguments])
-        return code, out.getvalue(), errors.getvalue()
+class ExtentTable(TableCase):
+    command = extent_table
+    stand_in = PROGRAM
 
     def test_pools_rows_of_all_runs(self):
         code, text, _ = self.printed("--seeds", "1-2")

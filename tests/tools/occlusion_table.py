@@ -14,11 +14,9 @@ import concurrent.futures
 import json
 import math
 import pathlib
-import shutil
-import subprocess
 import sys
 
-from tables import replaced_between, seeds_in
+from tables import evaluated_run, replaced_between, seeds_in
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIOS = ("occluded_car", "bus_stop", "far_crossing", "crowd")
@@ -31,23 +29,8 @@ END = "<!-- end of occlusions -->"
 
 def evaluated(scenario, seed, options):
     """The figures of one run; None if it fails, with the reason on stderr."""
-    folder = pathlib.Path(options.output) / f"{scenario}-{seed}"
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    run = [options.binary, "run", "--scenario", scenario, "--seed", str(seed), "--output", folder]
-    if options.config:
-        (folder / "settings.textproto").write_text(options.config)
-        run += ["--config", folder / "settings.textproto"]
-    for command in (run, [options.binary, "eval", "--result", folder, "--truth", folder / "truth", "--range", RANGE_M]):
-        ended = subprocess.run([str(word) for word in command], capture_output=True, text=True)
-        if ended.returncode != 0:
-            print(f"{scenario}, seed {seed}: exit code {ended.returncode}: {ended.stderr.strip()}", file=sys.stderr)
-            return None
-    figures = json.loads((folder / "evaluation.json").read_text())
-    for path in folder.iterdir():
-        if path.name not in ("evaluation.json", "settings.textproto"):
-            path.unlink()
-    return figures
+    folder = evaluated_run(options, scenario, seed, kept=("evaluation.json", "settings.textproto"), evaluate=["--range", RANGE_M])
+    return json.loads((folder / "evaluation.json").read_text()) if folder else None
 
 
 def summed(evaluations):

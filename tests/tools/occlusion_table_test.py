@@ -1,16 +1,14 @@
 """The table of occlusions: sums over runs, and its place in a page."""
 
-import contextlib
-import io
 import pathlib
 import sys
-import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 import occlusion_table
+from table_case import TableCase
 
 PROGRAM = """#!/usr/bin/env python3
 import json, pathlib, sys
@@ -33,20 +31,9 @@ else:
 """
 
 
-class OcclusionTable(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.program = self.folder / "program"
-        self.program.write_text(PROGRAM)
-        self.program.chmod(0o755)
-
-    def printed(self, *arguments):
-        out, errors = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
-            code = occlusion_table.main(["--binary", str(self.program), "--output", str(self.folder / "out"), *arguments])
-        return code, out.getvalue(), errors.getvalue()
+class OcclusionTable(TableCase):
+    command = occlusion_table
+    stand_in = PROGRAM
 
     def test_sums_counts_and_weighs_errors_with_their_samples(self):
         code, text, _ = self.printed("--scenario", "crowd", "--seeds", "1-2")
