@@ -39,7 +39,7 @@ slammot_precompile(core_headers LINK Eigen3::Eigen OPTIONS ${SLAMMOT_LIBRARY_OPT
   <optional> <random> <set> <span> <sstream> <string> <string_view> <utility> <variant> <vector>)
 
 # slammot_joined(joined commands a.cpp b.cpp): sets joined to one source that includes the others, where their common headers
-# (CLI11, nlohmann::json, Boost.Beast) cost more to compile than they do themselves: a quarter of a clean build. Only in releases;
+# (CLI11, nlohmann::json, Boost.Beast) cost more to compile than they do themselves. Only in releases;
 # elsewhere each is compiled by itself, as clang-tidy wants it.
 function(slammot_joined joined name)
   if(NOT SLAMMOT_JOIN_SOURCES)
