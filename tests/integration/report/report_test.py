@@ -66,7 +66,7 @@ async def test_track(page):
 
 async def test_comparison(page, file):
     await page.go(f"file://{file}")
-    check(await page.comes_to("frames.length === 2 && frames.every(f => f.contentWindow.slammotReport)"), "two results stand side by side")
+    check(await page.comes_to("window.length === 2 && [...document.querySelectorAll('iframe')].every(f => f.contentWindow.slammotReport)"), "two results stand side by side")
     await page.value("(() => { const p = frames[0].contentWindow.slammotReport; p.leads = true; p.seek(2); })()")
     check(await page.comes_to("frames[1].contentWindow.slammotReport.replay.time === 2", 10), "both show the same moment")
 
