@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ALGORITHM_FOLDERS = {"geometry", "sensing", "flow", "memory", "work", "grids", "matching", "filters", "association", "graphs",
-                     "simulation", "streets", "metrics", "city_model", "stages"}
+                     "simulation", "streets", "metrics", "city_model", "traffic", "stages"}
 # Their own code is pure; ingest and map_store do nothing but carry data, so they are shell throughout.
 ALGORITHM_SERVICES = {"localization", "detection", "tracking", "loop_closing", "collision_warning"}
 # Where a service joins the rings.

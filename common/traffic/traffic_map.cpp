@@ -1,0 +1,197 @@
+#include "common/traffic/traffic_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+
+namespace slammot::traffic {
+namespace {
+
+using geometry::Matrix2;
+using geometry::Vector2;
+
+constexpr int kCellsAside = 4;  // of a block
+constexpr double kBlockM = kCellsAside * kCellM;
+constexpr double kPieceM = 0.5 * kCellM;
+constexpr int kMostDirections = 4;  // of a cell: two crossing ways, both ways each
+constexpr double kSameDirection = std::numbers::sqrt2 / 2.0;  // cosine of 45 degrees
+
+constexpr double kLeastSpeedMps = 0.5;
+constexpr double kSignificant = 9.21;  // 99 % quantile of chi-square with two degrees of freedom
+constexpr double kLeastWayM = 3.0;     // from the first state; a shorter one may be an error of the
+                                       // box
+constexpr double kLongestGapS = 1.0;
+constexpr double kHalfCertainM2 = 0.25;  // variance of the position that halves the weight
+
+std::uint64_t key_of(std::int32_t column, std::int32_t row) {
+  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32U) |
+         static_cast<std::uint32_t>(row);
+}
+
+std::int32_t block_index(double coordinate_m) {
+  return static_cast<std::int32_t>(std::floor(coordinate_m / kBlockM));
+}
+
+Vector2 corner_of(std::uint64_t key) {
+  const auto column = static_cast<std::int32_t>(static_cast<std::uint32_t>(key >> 32U));
+  const auto row = static_cast<std::int32_t>(static_cast<std::uint32_t>(key));
+  return {column * kBlockM, row * kBlockM};
+}
+
+std::uint8_t cell_at(const Vector2& in_block_m) {
+  const auto index = [](double coordinate_m) {
+    return std::clamp(static_cast<int>(coordinate_m / kCellM), 0, kCellsAside - 1);
+  };
+  return static_cast<std::uint8_t>(kCellsAside * index(in_block_m.y()) + index(in_block_m.x()));
+}
+
+/// True if the velocity is beyond what its covariance explains.
+bool moves(const MoverState& state) {
+  const Vector2& velocity_mps = state.velocity_in_map_mps;
+  if (velocity_mps.norm() < kLeastSpeedMps) return false;
+  const Matrix2 covariance =
+      state.covariance.bottomRightCorner<2, 2>() + 1e-9 * Matrix2::Identity();
+  return velocity_mps.dot(covariance.ldlt().solve(velocity_mps)) > kSignificant;
+}
+
+double certainty_of(const MoverState& state) {
+  const double variance_m2 = 0.5 * state.covariance.topLeftCorner<2, 2>().trace();
+  return kHalfCertainM2 / (kHalfCertainM2 + std::max(0.0, variance_m2));
+}
+
+/// States that move, no two nearer than a piece, so that the scatter from scan to scan does not
+/// count as way.
+std::vector<const MoverState*> thinned(const Passage& passage) {
+  std::vector<const MoverState*> kept;
+  for (const MoverState& state : passage.states) {
+    if (!moves(state)) continue;
+    if (kept.empty() ||
+        (state.position_in_map_m - kept.back()->position_in_map_m).norm() >= kPieceM)
+      kept.push_back(&state);
+  }
+  return kept;
+}
+
+bool went_somewhere(const std::vector<const MoverState*>& states) {
+  return std::ranges::any_of(states, [&](const MoverState* state) {
+    return (state->position_in_map_m - states.front()->position_in_map_m).norm() >= kLeastWayM;
+  });
+}
+
+PlacedStream placed(const Stream& stream, std::uint64_t key) {
+  return {&stream, corner_of(key) + (stream.position_sum_m / stream.weight).cast<double>()};
+}
+
+}  // namespace
+
+struct TrafficMap::Piece {
+  Mover mover = Mover::kVehicle;
+  Vector2 position_m = Vector2::Zero();
+  Vector2 direction = Vector2::Zero();
+  double length_m = 0.0;
+  double certainty = 0.0;
+  double speed_mps = 0.0;
+  double width_m = 0.0;
+};
+
+double Stream::agreement() const {
+  return std::min(1.0, static_cast<double>(direction_sum.norm() / weight));
+}
+
+double Stream::speed_mps() const { return static_cast<double>(speed_sum_mps / weight); }
+
+double Stream::speed_spread_mps() const {
+  const double mean_mps = speed_mps();
+  return std::sqrt(
+      std::max(0.0, static_cast<double>(squared_speed_sum / weight) - mean_mps * mean_mps));
+}
+
+void TrafficMap::add(const Passage& passage) {
+  const std::vector<const MoverState*> states = thinned(passage);
+  if (!went_somewhere(states)) return;
+  ++passages_;
+  for (std::size_t i = 1; i < states.size(); ++i) add_step(passage, *states[i - 1], *states[i]);
+}
+
+void TrafficMap::add_step(const Passage& passage, const MoverState& from, const MoverState& to) {
+  const Vector2 step_m = to.position_in_map_m - from.position_in_map_m;
+  const Vector2 velocity_mps = 0.5 * (from.velocity_in_map_mps + to.velocity_in_map_mps);
+  const double speed_mps = velocity_mps.norm();
+  const double gap_s = static_cast<double>(to.stamp_ns - from.stamp_ns) * 1e-9;
+  if (gap_s > kLongestGapS || speed_mps < kLeastSpeedMps) return;
+  const Vector2 direction = velocity_mps / speed_mps;
+  // A step across the velocity is a correction of the box, not a way.
+  if (step_m.dot(direction) < kSameDirection * step_m.norm()) return;
+  const double length_m = step_m.dot(direction);
+  const int pieces = static_cast<int>(std::ceil(step_m.norm() / kPieceM));
+  const double certainty = std::min(certainty_of(from), certainty_of(to));
+  for (int i = 0; i < pieces; ++i)
+    add_piece({passage.mover, from.position_in_map_m + (i + 0.5) / pieces * step_m, direction,
+               length_m / pieces, certainty, speed_mps, passage.width_m});
+}
+
+void TrafficMap::add_piece(const Piece& piece) {
+  const std::uint64_t key =
+      key_of(block_index(piece.position_m.x()), block_index(piece.position_m.y()));
+  auto& blocks = blocks_[static_cast<std::size_t>(piece.mover)];
+  if (is_full() && !blocks.contains(key)) return;
+  Block& block = blocks[key];
+  const Vector2 in_block_m = piece.position_m - corner_of(key);
+  const std::uint8_t cell = cell_at(in_block_m);
+  Stream* nearest = nullptr;
+  double nearest_cosine = -2.0;
+  int directions = 0;
+  for (Stream& stream : block) {
+    if (stream.cell != cell) continue;
+    ++directions;
+    const double cosine = stream.direction().dot(piece.direction);
+    if (cosine > nearest_cosine) nearest = &stream, nearest_cosine = cosine;
+  }
+  if (nearest_cosine < kSameDirection && directions < kMostDirections) {
+    if (is_full()) return;
+    ++streams_;
+    nearest = &block.emplace_back();
+    nearest->cell = cell;
+  }
+  const auto weight = static_cast<float>(piece.length_m * piece.certainty);
+  const auto speed_mps = static_cast<float>(piece.speed_mps);
+  if (nearest->last_passage != passages_) ++nearest->passages;
+  nearest->last_passage = passages_;
+  nearest->length_m += static_cast<float>(piece.length_m);
+  nearest->weight += weight;
+  nearest->position_sum_m += weight * in_block_m.cast<float>();
+  nearest->direction_sum += weight * piece.direction.cast<float>();
+  nearest->speed_sum_mps += weight * speed_mps;
+  nearest->squared_speed_sum += weight * speed_mps * speed_mps;
+  nearest->width_sum_m += weight * static_cast<float>(piece.width_m);
+}
+
+void TrafficMap::append_near(Mover mover, const Vector2& centre_m, double half_side_m,
+                             std::vector<PlacedStream>& found) const {
+  const auto& blocks = blocks_[static_cast<std::size_t>(mover)];
+  for (std::int32_t row = block_index(centre_m.y() - half_side_m);
+       row <= block_index(centre_m.y() + half_side_m); ++row) {
+    for (std::int32_t column = block_index(centre_m.x() - half_side_m);
+         column <= block_index(centre_m.x() + half_side_m); ++column) {
+      const auto known = blocks.find(key_of(column, row));
+      if (known == blocks.end()) continue;
+      for (const Stream& stream : known->second) found.push_back(placed(stream, known->first));
+    }
+  }
+}
+
+std::vector<PlacedStream> TrafficMap::streams(Mover mover) const {
+  std::vector<PlacedStream> all;
+  for (const auto& [key, block] : blocks_[static_cast<std::size_t>(mover)]) {
+    for (const Stream& stream : block) all.push_back(placed(stream, key));
+  }
+  const auto place_of = [](const PlacedStream& stream) {
+    return std::pair(stream.position_m.x(), stream.position_m.y());
+  };
+  std::ranges::sort(all, {}, place_of);
+  return all;
+}
+
+}  // namespace slammot::traffic
