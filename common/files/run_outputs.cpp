@@ -10,6 +10,7 @@
 #include "common/files/atomic_file.hpp"
 #include "common/files/decimal.hpp"
 #include "common/files/map_image.hpp"
+#include "common/files/record_traffic.hpp"
 
 namespace slammot::files {
 namespace {
@@ -281,6 +282,8 @@ std::optional<Error> write_outputs(const std::filesystem::path& folder, const Ru
           write_file_atomically(folder / "track_details.csv", to_track_details_csv(tracks)))
     return fault;
   if (auto fault = write_file_atomically(folder / "predictions.csv", to_predictions_csv(tracks)))
+    return fault;
+  if (auto fault = write_file_atomically(folder / "lanes.geojson", lanes_geojson(record)))
     return fault;
   if (auto fault = write_labels(folder / "labels.csv", record.label_rows())) return fault;
   if (auto fault = write_file_atomically(folder / "graph.g2o", to_g2o(record))) return fault;

@@ -49,9 +49,9 @@ std::optional<Error> write_map_outputs(const std::filesystem::path& folder, cons
                                        const RunReport& report);
 
 /// Writes online.tum, online_covariance.csv, trajectory.tum, tracks.csv, track_details.csv,
-/// predictions.csv, labels.csv (where there are labels), graph.g2o, map.{pgm,png,yaml},
-/// moving.{pgm,png,yaml} and report.json into the folder, which must exist. Stops at the first file
-/// that cannot be written.
+/// predictions.csv, lanes.geojson, labels.csv (where there are labels), graph.g2o,
+/// map.{pgm,png,yaml}, moving.{pgm,png,yaml} and report.json into the folder, which must exist.
+/// Stops at the first file that cannot be written.
 std::optional<Error> write_outputs(const std::filesystem::path& folder, const RunRecord& record,
                                    const RunReport& report);
 

@@ -220,6 +220,13 @@ std::vector<StampedPose> RunRecord::corrected_trajectory() const {
   return one_pose_a_scan(poses);
 }
 
+geometry::Pose2 RunRecord::corrected_from_online(std::int64_t stamp_ns) const {
+  if (poses_.empty()) return geometry::Pose2::identity();
+  auto near = poses_.lower_bound(stamp_ns);
+  if (near == poses_.end()) --near;
+  return corrected(near->second) * geometry::inverse(near->second.map_from_base);
+}
+
 std::vector<StampedPose> RunRecord::one_pose_a_scan(
     const std::map<std::int64_t, geometry::Pose2>& poses_by_stamp) const {
   std::vector<StampedPose> trajectory;

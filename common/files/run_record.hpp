@@ -121,6 +121,9 @@ class RunRecord {
   /// The same after the last correction: pose in the submap, with the submap's corrected pose.
   std::vector<StampedPose> corrected_trajectory() const;
 
+  /// Moves what was published live in map at that time to where the last correction places it.
+  geometry::Pose2 corrected_from_online(std::int64_t stamp_ns) const;
+
  private:
   struct LocalizedPose {
     std::string scanner_id;

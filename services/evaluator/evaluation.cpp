@@ -88,6 +88,11 @@ std::optional<Error> evaluate_scenes(const RunResult& result, const Truth& truth
     evaluation.tracking =
         evaluate_tracking(made, evaluation.counted, truth.object_count, options.rule);
     evaluation.occlusion = metrics::occlusion_figures(made.scenes, options.rule);
+    if (result.ways && !truth.annotated)
+      evaluation.ways = evaluate_ways(
+          *result.ways,
+          true_steps(made.scenes, geometry::inverse(evaluation.corrected.world_from_map),
+                     options.rule));
   }
   if (truth.walls && result.map) {
     evaluation.map =

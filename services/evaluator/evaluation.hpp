@@ -16,6 +16,7 @@
 #include "services/evaluator/trajectory_evaluation.hpp"
 #include "services/evaluator/truth_files.hpp"
 #include "services/evaluator/wall_sharpness.hpp"
+#include "services/evaluator/way_evaluation.hpp"
 
 namespace slammot::evaluator {
 
@@ -40,6 +41,7 @@ struct Evaluation {
   std::optional<metrics::OcclusionFigures> occlusion;
   std::optional<OtherCarEvaluation> other_car;
   std::optional<metrics::MapQuality> map;
+  std::optional<WayEvaluation> ways;
   std::optional<WallSharpness> walls;  ///< Filled by the caller, who has the log.
   std::vector<std::string> notes;
   std::vector<metrics::Scene> scenes;    ///< Truth and tracks of each scan, in world.

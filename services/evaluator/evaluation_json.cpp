@@ -222,6 +222,25 @@ Json to_json(const WallSharpness& walls, double cell_size_m) {
           {"by_truth", to_json(walls.of_truth)}};
 }
 
+Json to_json(const std::array<traffic::WayAccuracy, traffic::kMovers>& accuracy) {
+  Json kinds = Json::object();
+  for (std::size_t kind = 0; kind < accuracy.size(); ++kind)
+    kinds[name_of(static_cast<traffic::Mover>(kind))] = {
+        {"travelled_in_view_m", number(accuracy[kind].travelled_m)},
+        {"found_m", number(accuracy[kind].found_m)},
+        {"recall", number(accuracy[kind].recall())},
+        {"length_m", number(accuracy[kind].length_m)},
+        {"true_m", number(accuracy[kind].true_m)},
+        {"precision", number(accuracy[kind].precision())}};
+  return kinds;
+}
+
+Json to_json(const WayEvaluation& ways) {
+  return {{"all", to_json(ways.all)},
+          {"least_confidence", number(ways.least_confidence)},
+          {"confident", to_json(ways.confident)}};
+}
+
 Json to_json(const EvaluationOptions& options) {
   return {{"range_m", options.rule.range_m},
           {"first_bearing_rad", options.rule.first_bearing_rad},
@@ -254,6 +273,7 @@ std::string to_json_text(const Evaluation& evaluation, const EvaluationOptions& 
   if (evaluation.tracking) json["tracking"] = to_json(*evaluation.tracking);
   if (evaluation.occlusion) json["occlusion"] = to_json(*evaluation.occlusion);
   if (evaluation.other_car) json["other_car"] = to_json(*evaluation.other_car);
+  if (evaluation.ways) json["ways"] = to_json(*evaluation.ways);
   if (evaluation.map) json["map"] = to_json(*evaluation.map);
   if (evaluation.walls) json["walls"] = to_json(*evaluation.walls, options.walls.cell_size_m);
   json["notes"] = evaluation.notes;

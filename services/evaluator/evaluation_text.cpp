@@ -185,6 +185,21 @@ std::string describe(const metrics::MapQuality& map) {
       map.precision(), map.occupied_cells, map.recall(), 100.0 * map.residue());
 }
 
+std::string describe(const WayEvaluation& ways) {
+  std::string lines = text(
+      "ways of movers, within 1 m and 20 deg   from confidence 0 / %.1f on\n  %-12s %12s %12s %17s "
+      "%17s\n",
+      ways.least_confidence, "kind", "in view [m]", "found [m]", "recall", "precision");
+  for (std::size_t kind = 0; kind < ways.all.size(); ++kind) {
+    const traffic::WayAccuracy& all = ways.all[kind];
+    const traffic::WayAccuracy& confident = ways.confident[kind];
+    lines += text("  %-12s %12.0f %12.0f %9.3f / %.3f %9.3f / %.3f\n",
+                  name_of(static_cast<traffic::Mover>(kind)), all.travelled_m, all.length_m,
+                  all.recall(), confident.recall(), all.precision(), confident.precision());
+  }
+  return lines;
+}
+
 std::string wall_row(const char* name, const metrics::MapSharpness& map) {
   return text("  %-34s %12.4f %12zu %12zu %14.0f\n", name, map.mean_entropy_bits(),
               map.touched_cells, map.occupied_cells, map.entropy_bits);
@@ -218,6 +233,7 @@ std::string to_text(const Evaluation& evaluation, const EvaluationOptions& optio
   }
   if (evaluation.occlusion) lines += describe(*evaluation.occlusion);
   if (evaluation.other_car) lines += describe(*evaluation.other_car);
+  if (evaluation.ways) lines += describe(*evaluation.ways);
   if (evaluation.map) lines += describe(*evaluation.map);
   if (evaluation.walls) lines += describe(*evaluation.walls, options.walls.cell_size_m);
   for (const std::string& note : evaluation.notes) lines += "note: " + note + "\n";

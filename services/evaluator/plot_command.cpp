@@ -15,6 +15,7 @@
 #include "services/evaluator/model_drawing.hpp"
 #include "services/evaluator/plot_drawing.hpp"
 #include "services/evaluator/scene_drawing.hpp"
+#include "services/evaluator/way_drawing.hpp"
 
 namespace slammot::evaluator {
 namespace {
@@ -32,11 +33,13 @@ struct PlotOptions {
 
 Drawing draw_ground(const RunResult& result, const PlotOptions& options) {
   const GroundView view = whole_view(result, options.size);
-  const SceneDrawing scene(result, page_theme(options.theme), view.metres_per_pixel);
+  const PageTheme theme = page_theme(options.theme);
+  const SceneDrawing scene(result, theme, view.metres_per_pixel);
   Drawing drawing = scene.ground(view);
   if (options.what == "tracks") scene.add_paths(view, drawing);
-  else scene.add_closures(view, drawing);
-  scene.add_way(view, std::numeric_limits<std::int64_t>::max(), drawing);
+  if (options.what == "map") scene.add_closures(view, drawing);
+  if (options.what == "lanes") add_ways(*result.ways, view, theme, drawing);
+  else scene.add_way(view, std::numeric_limits<std::int64_t>::max(), drawing);
   scene.add_scale(view, drawing);
   return drawing;
 }
@@ -79,6 +82,8 @@ files::Result<Drawing> draw_model_of(const RunResult& result, const PlotOptions&
 files::Result<Drawing> draw(const RunResult& result, const PlotOptions& options) {
   if (options.what == "model") return draw_model_of(result, options);
   if (options.what == "errors") return draw_errors(result, options);
+  if (options.what == "lanes" && !result.ways)
+    return files::Error{(options.result / "lanes.geojson").string() + ": cannot be read"};
   if (options.what != "latency") return draw_ground(result, options);
   const std::vector<LogBar> bars = latency_bars(result.report_json);
   if (bars.empty()) return files::Error{"report.json has no latencies"};
@@ -114,12 +119,12 @@ int plot(const PlotOptions& options) {
 
 void add_plot_command(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand(
-      "plot", "Draw map, tracks, latencies, errors or the 2.5-D model of a result");
+      "plot", "Draw map, tracks, lanes, latencies, errors or the 2.5-D model of a result");
   const auto options = std::make_shared<PlotOptions>();
   command->add_option("what", options->what, "What to draw")
       ->required()
-      ->type_name("map|tracks|latency|errors|model")
-      ->check(CLI::IsMember({"map", "tracks", "latency", "errors", "model"}));
+      ->type_name("map|tracks|lanes|latency|errors|model")
+      ->check(CLI::IsMember({"map", "tracks", "lanes", "latency", "errors", "model"}));
   command->add_option("result", options->result, "Folder that run or bench wrote")
       ->required()
       ->type_name("DIR");
@@ -131,12 +136,15 @@ void add_plot_command(CLI::App& app, int& exit_code) {
       ->add_option("--truth", options->truth,
                    "Prefix of the true files: errors in place of standard deviations")
       ->type_name("PREFIX");
-  command->add_option("--theme", options->theme, "Colours of map, tracks and model: dark or light")
+  command
+      ->add_option("--theme", options->theme,
+                   "Colours of map, tracks, lanes and model: dark or light")
       ->type_name("dark|light")
       ->check(CLI::IsMember({"dark", "light"}))
       ->capture_default_str();
   command
-      ->add_option("--size", options->size, "Pixels along the longer side of map, tracks and model")
+      ->add_option("--size", options->size,
+                   "Pixels along the longer side of map, tracks, lanes and model")
       ->type_name("N")
       ->check(CLI::Range(64.0, 16384.0))
       ->capture_default_str();

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/files/ways_file.hpp"
 #include "services/evaluator/table_file.hpp"
 #include "services/evaluator/truth_files.hpp"
 
@@ -243,6 +244,11 @@ Result<RunResult> read_result(const path& folder) {
   }
   if (const auto file = plain_or_gz(folder / "labels.csv")) {
     if (auto fault = read_labels(*file, result.labels)) return *fault;
+  }
+  if (std::filesystem::exists(folder / "lanes.geojson")) {
+    auto ways = files::read_ways(folder / "lanes.geojson");
+    if (!ways) return ways.error();
+    result.ways = std::move(*ways);
   }
   if (auto fault = read_small_files(folder, result)) return *fault;
   return result;

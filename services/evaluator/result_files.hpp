@@ -12,6 +12,7 @@
 #include "common/files/result.hpp"
 #include "common/metrics/scene.hpp"
 #include "common/metrics/trajectory.hpp"
+#include "common/traffic/way.hpp"
 #include "services/evaluator/result_graph.hpp"
 
 namespace slammot::evaluator {
@@ -62,7 +63,8 @@ struct RunResult {
   std::size_t track_rows = 0;    ///< Of the drive, where `tracks` holds only a part; else 0.
   std::vector<LabelsAt> labels;  ///< Ascending stamps; empty if not written.
   std::optional<files::MapImage> map;
-  std::optional<files::MapImage> moving;  ///< MO-map; the same pixels as `map`.
+  std::optional<files::MapImage> moving;          ///< MO-map; the same pixels as `map`.
+  std::optional<std::vector<traffic::Way>> ways;  ///< lanes.geojson; none if not written.
   ResultGraph graph;
   std::vector<LostSpan> losses;
   std::string report_json;          ///< Text of report.json; may be empty.

@@ -8,6 +8,7 @@
 #include "services/evaluator/evaluation_text.hpp"
 #include "services/evaluator/report_page.hpp"
 #include "services/evaluator/scene_drawing.hpp"
+#include "services/evaluator/way_drawing.hpp"
 #include "tests/fuzz/mutation.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/evaluator/files.hpp"
@@ -38,6 +39,8 @@ std::map<std::string, std::string> whole_files() {
       {"online_covariance.csv",
        "timestamp,x,y,heading,var_x,cov_xy,cov_xh,var_y,cov_yh,var_h\n0.000000,0,0,0,1,0,0,1,0,"
        "1\n1.000000,10,0,0,1,0,0,1,0,1\n"},
+      {"lanes.geojson",
+       R"({"features":[{"properties":{"kind":"lane","line":0,"speed":8.1,"speed_spread":1,"width":3,"tracks":2,"confidence":0.6},"geometry":{"coordinates":[[0,1],[9,1]]}}]})"},
       {"labels.csv", "timestamp,detection,tracking\n0.000000,sm?-,smm-\n"},
       {"map.pgm", files::to_pgm(kImage)},
       {"map.yaml", files::to_map_server_yaml(kImage, "map.pgm")},
@@ -73,6 +76,7 @@ void compare(const std::filesystem::path& folder) {
   const SceneDrawing scene(*result, page_theme("dark"), view.metres_per_pixel);
   Drawing drawing = scene.ground(view);
   scene.add_paths(view, drawing);
+  if (result->ways) add_ways(*result->ways, view, page_theme("dark"), drawing);
   scene.add_tracks(view, result->corrected.front().stamp_ns, drawing);
   EXPECT_FALSE(to_pixels(drawing, 1.0).pixels.empty());
 }

@@ -172,8 +172,8 @@ TEST(WriteOutputs, WritesEveryFileTheSameTwiceButForWhatWasMeasured) {
     EXPECT_FALSE(write_outputs(folder / run, small_record(), example_report(run[0])));
   }
   for (const char* file :
-       {"online.tum", "trajectory.tum", "tracks.csv", "predictions.csv", "graph.g2o", "map.pgm",
-        "map.png", "map.yaml", "moving.pgm", "moving.png", "moving.yaml"}) {
+       {"online.tum", "trajectory.tum", "tracks.csv", "predictions.csv", "lanes.geojson",
+        "graph.g2o", "map.pgm", "map.png", "map.yaml", "moving.pgm", "moving.png", "moving.yaml"}) {
     EXPECT_FALSE(read_file(folder / "a" / file).empty()) << file;
     EXPECT_EQ(read_file(folder / "a" / file), read_file(folder / "b" / file)) << file;
   }
