@@ -196,6 +196,11 @@ std::optional<LogEvent> CarmenLog::next() {
   return event;
 }
 
+std::optional<sensing::GyroUse> CarmenLog::gyro_use() const {
+  if (!gyro_.has_readings()) return std::nullopt;
+  return gyro_.use();
+}
+
 /// Sets now_ to the next record, kept or parsed. Returns false at the end.
 bool CarmenLog::read_on() {
   if (!kept_.empty()) {

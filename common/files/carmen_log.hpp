@@ -99,6 +99,9 @@ class CarmenLog {
   const LogFaults& faults() const { return faults_; }
   const TopicChoice& topics() const { return topics_; }
 
+  /// Up to the last event of next(). None without a reading beside odometry.
+  std::optional<sensing::GyroUse> gyro_use() const;
+
   /// Of the scans returned by next().
   std::vector<std::string> scanner_ids() const;
 

@@ -182,6 +182,9 @@ std::string describe_log(const LogPlan& plan) {
       "%.0f %% of the beams have one\n",
       figures.median_range_m, figures.far_range_m, figures.max_range_m, 100.0 * figures.echo_share);
   lines += "odometry   " + describe_odometry(plan) + "\n";
+  if (figures.imu_lines > 0)
+    lines += text("imu        %llu readings of the turn rate; a run says what it made of them\n",
+                  static_cast<unsigned long long>(figures.imu_lines));
   lines += text("mounting   %.2f m ahead, %.2f m to the left, turned by %.0f degrees\n",
                 plan.base_from_laser.x_m, plan.base_from_laser.y_m,
                 plan.base_from_laser.heading_rad * kDegrees);

@@ -115,6 +115,16 @@ std::vector<std::string> describe_episodes(const OdometryConclusions& odometry,
   return lines;
 }
 
+/// Why the turns of a gyro are not used.
+std::string doubt_of_gyro(const sensing::GyroUse& gyro) {
+  if (gyro.turn_ratio == 0.0)
+    return "the wheels have hardly turned yet: nothing to compare it with";
+  if (gyro.turn_ratio < 0.0) return "it turns against the wheels: sign, or mounted upside down";
+  if (!gyro.bias_is_known) return "its bias is not known: it needs straights or stops";
+  return text("it turns %.2f times as much as the wheels: unit, or mounted otherwise",
+              gyro.turn_ratio);
+}
+
 }  // namespace
 
 const char* name_of(OdometryFault fault) {
@@ -141,6 +151,12 @@ std::string describe_odometry(const OdometryConclusions& odometry, bool time_is_
   for (const std::string& episode : describe_episodes(odometry, time_is_known))
     parts.push_back(episode);
   return joined(parts, "; ");
+}
+
+std::string describe_gyro(const sensing::GyroUse& gyro) {
+  if (gyro.used_s == 0.0) return "not used: " + doubt_of_gyro(gyro);
+  return text("its turns replace those of the wheels for %.0f of %.0f s; bias %.3f degrees a second",
+              gyro.used_s, gyro.read_s, kDegreesPerRadian * gyro.bias_radps);
 }
 
 }  // namespace slammot::files

@@ -134,6 +134,14 @@ Json factors_of(const sensing::WheelFactors& factors) {
           {"yaw_bias_radps", short_number(factors.turn_bias_radps)}};
 }
 
+Json gyro_of(const sensing::GyroUse& gyro) {
+  return {{"conclusion", describe_gyro(gyro)},
+          {"read_s", short_number(gyro.read_s)},
+          {"used_s", short_number(gyro.used_s)},
+          {"bias_radps", short_number(gyro.bias_radps)},
+          {"turn_ratio", short_number(gyro.turn_ratio)}};
+}
+
 Json odometry_of(const sensing::OdometryConclusions& odometry, bool time_is_known) {
   Json recalibrations = Json::array();
   for (const sensing::OdometryRecalibration& one : odometry.recalibrations) {
@@ -233,6 +241,7 @@ std::string to_json_text(const RunRecord& record, const RunReport& report, doubl
                {"closures", closures_of(record)}};
   if (!report.losses.empty()) json["losses"] = losses_of(report);
   if (!report.replaced_stages.empty()) json["replaced_stages"] = report.replaced_stages;
+  if (report.gyro) json["gyro"] = gyro_of(*report.gyro);
   if (report.odometry)
     json["odometry"] = odometry_of(*report.odometry, report.plan.figures.has_clock);
   if (record.georeference()) json["georeference"] = georeference_of(*record.georeference());

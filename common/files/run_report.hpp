@@ -10,6 +10,7 @@
 #include "common/files/carmen_survey.hpp"
 #include "common/files/run_record.hpp"
 #include "common/files/street_findings.hpp"
+#include "common/sensing/gyro_odometry.hpp"
 #include "common/sensing/odometry_episodes.hpp"
 
 namespace slammot::files {
@@ -53,6 +54,7 @@ struct RunReport {
   std::map<std::string, std::map<std::string, std::uint64_t>> counters;  ///< By stage and name.
   std::vector<LossOfPlace> losses;                       ///< Of localization, where known.
   std::optional<sensing::OdometryConclusions> odometry;  ///< None if not recorded.
+  std::optional<sensing::GyroUse> gyro;                  ///< None without an IMU.
   std::optional<StreetFindings> streets;                 ///< None without a street graph.
   MeasuredRun measured;
 };

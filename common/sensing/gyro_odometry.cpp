@@ -19,6 +19,7 @@ constexpr double kWheelSlip = 0.3;  // share of a turn by which wheels err for a
 constexpr double kBiasWalk_radps_per_sqrt_s = 1e-4;
 constexpr double kGateSigmas = 3.0;         // beyond it the vehicle turns, or the wheels slip
 constexpr double kKnownBias_radps = 0.002;  // one sigma
+constexpr double kEnough_rad2ps = 0.1;      // of turns: 0.1 rad/s for 10 s
 
 double squared(double value) { return value * value; }
 double seconds(std::int64_t duration_ns) { return 1e-9 * static_cast<double>(duration_ns); }
@@ -35,9 +36,17 @@ Pose2 with_turn(const Pose2& step, double turn_rad) {
 
 double GyroOdometry::bias_sigma_radps() const { return std::sqrt(bias_variance_); }
 
+GyroUse GyroOdometry::use() const {
+  return {.read_s = read_s_,
+          .used_s = used_s_,
+          .bias_is_known = bias_sigma_radps() < kKnownBias_radps,
+          .bias_radps = bias_radps_,
+          .turn_ratio =
+              wheels_by_wheels_ > kEnough_rad2ps ? gyro_by_wheels_ / wheels_by_wheels_ : 0.0};
+}
+
 bool GyroOdometry::is_believed() const {
-  constexpr double kEnough_rad2ps = 0.1;  // 0.1 rad/s for 10 s
-  constexpr double kMostTimes = 2.0;      // wheels that slip are within it
+  constexpr double kMostTimes = 2.0;  // wheels that slip are within it
   return bias_sigma_radps() < kKnownBias_radps && wheels_by_wheels_ > kEnough_rad2ps &&
          gyro_by_wheels_ * kMostTimes > wheels_by_wheels_ &&
          gyro_by_wheels_ < kMostTimes * wheels_by_wheels_;
@@ -102,7 +111,10 @@ double GyroOdometry::turn_of(const Pose2& by_wheels, double by_gyro_rad, double 
   learn_bias(by_wheels, by_gyro_rad, duration_s);
   const double turn_rad = by_gyro_rad - bias_radps_ * duration_s;
   compare(by_wheels.heading_rad, turn_rad, duration_s);
-  return is_believed() ? turn_rad : by_wheels.heading_rad;
+  read_s_ += duration_s;
+  if (!is_believed()) return by_wheels.heading_rad;
+  used_s_ += duration_s;
+  return turn_rad;
 }
 
 Odometry GyroOdometry::fused(const Odometry& by_wheels) {

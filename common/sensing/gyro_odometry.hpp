@@ -9,6 +9,15 @@
 
 namespace slammot::sensing {
 
+/// What was made of the readings of a gyro.
+struct GyroUse {
+  double read_s = 0.0;  ///< Duration of the steps of the wheels with readings.
+  double used_s = 0.0;  ///< Of those whose turn is the gyro's.
+  bool bias_is_known = false;
+  double bias_radps = 0.0;
+  double turn_ratio = 0.0;  ///< Turns by gyro over those by wheels; 0: hardly a turn yet.
+};
+
 /// Odometry whose way is that of the wheels and whose turns are those of a gyro, less its bias.
 /// Wheels that slip in turns err by tenths of the turn, a gyro by thousandths of it and its bias.
 ///
@@ -28,6 +37,7 @@ class GyroOdometry {
   Odometry fused(const Odometry& by_wheels);
 
   bool has_readings() const { return last_.has_value(); }
+  GyroUse use() const;
   double bias_radps() const { return bias_radps_; }
   double bias_sigma_radps() const;
 
@@ -55,6 +65,8 @@ class GyroOdometry {
   std::optional<TurnRate> last_;
   std::optional<Sample> before_;
   double stood_s_ = 0.0;
+  double read_s_ = 0.0;
+  double used_s_ = 0.0;
   double gyro_by_wheels_ = 0.0;    ///< Sum of the products of both turn rates over time [rad^2/s],
   double wheels_by_wheels_ = 0.0;  ///< and of the squares of the wheels'.
   double bias_radps_ = 0.0;

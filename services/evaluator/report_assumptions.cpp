@@ -66,6 +66,11 @@ std::string odometry_text(const Json& report, const Json& input) {
   return conclusion.empty() ? source : source + "; " + conclusion;
 }
 
+std::string gyro_row(const Json& report) {
+  if (!report.contains("gyro")) return {};
+  return row("gyro", word(report["gyro"], "conclusion"));
+}
+
 std::string findings_rows(const Json& input) {
   std::string rows;
   if (!input.contains("findings") || !input["findings"].is_array()) return rows;
@@ -90,7 +95,7 @@ std::string assumptions_section(const std::string& report_json) {
     profile += " (" + reason + ")";
   return "<section><h2>What was assumed</h2><table class=\"words\">" +
          row("clock", clock_text(input)) + row("odometry", odometry_text(*report, input)) +
-         row("scanner", scanner_text(input)) + row("mounting", mounting_text(input)) +
+         gyro_row(*report) + row("scanner", scanner_text(input)) + row("mounting", mounting_text(input)) +
          row("profile", profile) + findings_rows(input) + "</table></section>";
 }
 

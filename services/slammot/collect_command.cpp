@@ -45,6 +45,7 @@ files::Result<std::vector<std::int64_t>> scans_of_drive(const CollectOptions& op
   report.input = options.input.filename().string();
   report.plan = log->plan();
   report.faults = log->faults();
+  report.gyro = log->gyro_use();
   return stamps_ns;
 }
 

@@ -214,6 +214,7 @@ files::RunReport report_of(const Job& job, const JobOptions& options, const std:
   report.sweep_s = job.sweep_s;
   report.plan = job.log.plan();
   report.faults = job.log.faults();
+  report.gyro = job.log.gyro_use();
   report.replaced_stages = replaced_stages(job.profile.implementations);
   return report;
 }

@@ -95,6 +95,7 @@ std::string describe_outcome(const files::RunRecord& record, const files::RunRep
           ? "odometry: " +
                 files::describe_odometry(*report.odometry, report.plan.figures.has_clock) + "\n"
           : std::string();
+  if (report.gyro) lines += "gyro:     " + files::describe_gyro(*report.gyro) + "\n";
   if (record.georeference())
     lines += "position: " + files::describe_georeference(*record.georeference()) + "\n";
   if (report.streets) lines += "streets:  " + files::describe_streets(*report.streets) + "\n";

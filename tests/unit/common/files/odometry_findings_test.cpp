@@ -102,5 +102,25 @@ TEST(NameOfOdometryFault, IsAnotherOneForEach) {
   EXPECT_EQ(names.count(""), 0U);
 }
 
+TEST(DescribeGyro, SaysForHowLongItWasUsed) {
+  EXPECT_EQ(describe_gyro({.read_s = 350.0,
+                           .used_s = 312.0,
+                           .bias_is_known = true,
+                           .bias_radps = 0.01,
+                           .turn_ratio = 1.02}),
+            "its turns replace those of the wheels for 312 of 350 s; bias 0.573 degrees a second");
+}
+
+TEST(DescribeGyro, SaysWhyItWasNotUsed) {
+  const auto reason = [](bool bias_is_known, double turn_ratio) {
+    return describe_gyro(
+        {.read_s = 60.0, .bias_is_known = bias_is_known, .turn_ratio = turn_ratio});
+  };
+  EXPECT_NE(reason(true, 0.0).find("hardly turned"), std::string::npos);
+  EXPECT_NE(reason(true, -1.0).find("against the wheels"), std::string::npos);
+  EXPECT_NE(reason(false, 1.0).find("bias"), std::string::npos);
+  EXPECT_NE(reason(true, 57.3).find("57.30 times"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace slammot::files

@@ -99,6 +99,20 @@ TEST(GyroOdometry, MeasuresTheBiasOnAStraight) {
   EXPECT_NEAR(odometry.bias_radps(), 0.02, 0.002);
 }
 
+TEST(GyroOdometry, TellsForHowLongItWasUsed) {
+  GyroOdometry odometry;
+  Vehicle vehicle(1.15, 0.02);
+  vehicle.drive(odometry, 20.0, 5.0, 0.0);
+  EXPECT_EQ(odometry.use().used_s, 0.0);
+  EXPECT_EQ(odometry.use().turn_ratio, 0.0);
+  vehicle.drive(odometry, 10.0, 5.0, 0.3);
+  const GyroUse use = odometry.use();
+  EXPECT_NEAR(use.read_s, 30.0, 0.1);
+  EXPECT_GT(use.used_s, 5.0);
+  EXPECT_LT(use.used_s, 10.0);
+  EXPECT_NEAR(use.turn_ratio, 1.0 / 1.15, 0.02);
+}
+
 TEST(GyroOdometry, IsNotBelievedBeforeItsBiasIsKnown) {
   GyroOdometry odometry;
   Vehicle vehicle(1.0, 0.02);
