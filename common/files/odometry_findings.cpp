@@ -155,8 +155,9 @@ std::string describe_odometry(const OdometryConclusions& odometry, bool time_is_
 
 std::string describe_gyro(const sensing::GyroUse& gyro) {
   if (gyro.used_s == 0.0) return "not used: " + doubt_of_gyro(gyro);
-  return text("its turns replace those of the wheels for %.0f of %.0f s; bias %.3f degrees a second",
-              gyro.used_s, gyro.read_s, kDegreesPerRadian * gyro.bias_radps);
+  return text(
+      "its turns replace those of the wheels for %.0f of %.0f s; bias %.3f degrees a second",
+      gyro.used_s, gyro.read_s, kDegreesPerRadian * gyro.bias_radps);
 }
 
 }  // namespace slammot::files

@@ -12,7 +12,8 @@ namespace slammot::files {
 /// scans.
 std::string describe_odometry(const sensing::OdometryConclusions& odometry, bool time_is_known);
 
-/// What was made of the IMU's turn rate, and why if it was not used, in one line without a full stop.
+/// What was made of the IMU's turn rate, and why if it was not used, in one line without a full
+/// stop.
 std::string describe_gyro(const sensing::GyroUse& gyro);
 
 /// Name of the fault in the report.

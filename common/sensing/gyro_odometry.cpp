@@ -37,12 +37,12 @@ Pose2 with_turn(const Pose2& step, double turn_rad) {
 double GyroOdometry::bias_sigma_radps() const { return std::sqrt(bias_variance_); }
 
 GyroUse GyroOdometry::use() const {
-  return {.read_s = read_s_,
-          .used_s = used_s_,
-          .bias_is_known = bias_sigma_radps() < kKnownBias_radps,
-          .bias_radps = bias_radps_,
-          .turn_ratio =
-              wheels_by_wheels_ > kEnough_rad2ps ? gyro_by_wheels_ / wheels_by_wheels_ : 0.0};
+  return {
+      .read_s = read_s_,
+      .used_s = used_s_,
+      .bias_is_known = bias_sigma_radps() < kKnownBias_radps,
+      .bias_radps = bias_radps_,
+      .turn_ratio = wheels_by_wheels_ > kEnough_rad2ps ? gyro_by_wheels_ / wheels_by_wheels_ : 0.0};
 }
 
 bool GyroOdometry::is_believed() const {

@@ -37,6 +37,18 @@ constexpr double kMostMisfit = 3.0;
 
 double squared(double value) { return value * value; }
 
+/// Wheels that count nothing while the vehicle moves tell nothing of their factors.
+bool are_frozen(const Pose2& by_wheels, const Pose2& by_matches) {
+  constexpr double kNothing_m = 1e-4;
+  constexpr double kNothing_rad = 1e-4;
+  constexpr double kMoves_m = 0.03;
+  constexpr double kMoves_rad = 0.02;
+  const bool stand = std::hypot(by_wheels.x_m, by_wheels.y_m) < kNothing_m &&
+                     std::abs(by_wheels.heading_rad) < kNothing_rad;
+  return stand && (std::hypot(by_matches.x_m, by_matches.y_m) > kMoves_m ||
+                   std::abs(by_matches.heading_rad) > kMoves_rad);
+}
+
 }  // namespace
 
 double log_marginal_likelihood(const geometry::UncertainPose2& prediction, const Pose2& optimum,
@@ -90,6 +102,7 @@ StepExplanation most_likely(const ExplanationWeights& weights) {
 
 void WheelFactorEstimator::observe(const Pose2& by_wheels, const Pose2& by_matches,
                                    double duration_s) {
+  if (are_frozen(by_wheels, by_matches)) return;
   ++steps_;
   const double way_m = by_wheels.x_m;
   way_variance_ += kForgetWay;
@@ -163,6 +176,16 @@ double log_odds_of(const Pose2& by_wheels, const geometry::UncertainPose2& by_sc
   return std::clamp(for_right - for_wrong, kLeast, kMost);
 }
 
+bool both_stand(const OdometryComparison& comparison) {
+  constexpr double kStill_m = 0.03;
+  constexpr double kStill_rad = 0.01;
+  const auto is_still = [&](const Pose2& pose) {
+    return std::hypot(pose.x_m, pose.y_m) < kStill_m && std::abs(pose.heading_rad) < kStill_rad;
+  };
+  return is_still(comparison.by_wheels) &&
+         (!comparison.by_scans || is_still(comparison.by_scans->pose));
+}
+
 OdometryBelief compared(OdometryBelief belief, const OdometryComparison& comparison) {
   constexpr double kBound = 4.0;
   constexpr double kMostDisbeliefs = 5.0;
@@ -171,8 +194,9 @@ OdometryBelief compared(OdometryBelief belief, const OdometryComparison& compari
   constexpr double kWrongBelow = -1.0;
   const double right_above = 1.0 + asked_more;
   constexpr double kWithoutMatch = 1.0;
-  const auto& [by_wheels, as_believed, by_scans, duration_s, extra_odds] = comparison;
-  const double odds = (by_scans ? log_odds_of(as_believed, *by_scans) : kWithoutMatch) + extra_odds;
+  const auto& [by_wheels, as_believed, by_scans, duration_s, extra_odds, keyframe] = comparison;
+  const double told = (by_scans ? log_odds_of(as_believed, *by_scans) : kWithoutMatch) + extra_odds;
+  const double odds = both_stand(comparison) ? std::min(0.0, told) : told;
   belief.log_odds = std::clamp(belief.log_odds + odds, -kBound,
                                by_scans ? bound : std::max(belief.log_odds, 1.5));
   if (by_scans && belief.estimator.is_known()) {

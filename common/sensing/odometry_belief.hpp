@@ -157,9 +157,16 @@ struct OdometryComparison {
                                                      ///< match.
   double duration_s = 0.0;
   double extra_odds = 0.0;  ///< Additional log-odds of correct odometry, besides the poses [nats].
+  std::optional<geometry::Pose2> odom_from_keyframe{};  ///< Pose at the earlier scan, where the
+                                                        ///< scans refute that the vehicle stood
+                                                        ///< since.
 };
 
 OdometryBelief compared(OdometryBelief belief, const OdometryComparison& comparison);
+
+/// True if odometry says that the vehicle stood, and the scans, if they match, say the same:
+/// odometry that never moves says so, too.
+bool both_stand(const OdometryComparison& comparison);
 
 /// True if the scans tell how far the vehicle came, and odometry says the same.
 bool confirms(const OdometryComparison& comparison);

@@ -7,6 +7,8 @@
 
 #include <Eigen/LU>
 
+#include "services/localization/keyframe_priors.hpp"
+
 namespace slammot::localization {
 namespace {
 
@@ -18,16 +20,12 @@ constexpr double kFar_rad = 0.25;
 constexpr double kLong_s = 1.0;            // after which what stands still is forgotten
 constexpr double kReach_m = 50.0;          // half side of what is kept of the keyframe
 constexpr std::size_t kFewestPoints = 50;  // fewer may all be of one moving object
-constexpr double kLeastShare = 0.35;       // of the points
 constexpr double kInformationShare = 0.4;  // neighbouring points share the errors of a surface
 constexpr std::array kStarts{1.0, 0.75, 0.5, 0.0, 1.3};  // of the expected way: registration
                                                          // converges from half a metre only
 constexpr double kMovesAlong = 0.35;                     // of the way by odometry, and less
 constexpr double kLeastWay_m = 0.1;
-constexpr double kSame_m = 0.05;     // two registrations that end nearer to each other
-constexpr double kRivalShare = 0.9;  // another place that fits as well as this share of the best:
-                                     // nothing is told
-constexpr double kBestFit = 0.9;     // of any place
+constexpr double kBestFit = 0.9;   // of any place
 constexpr double kClearly = 2.2;   // times the fit of what is expected: the way was another; echoes
                                    // from the ground move along
 constexpr double kStands_m = 0.3;  // by odometry between two keyframes
@@ -36,29 +34,22 @@ constexpr double kSoundAbove = 0.9;
 constexpr double kDoubtBelow = 0.05;  // probability that the way by odometry is right
 constexpr double kProminent = 0.06;   // of a fit
 constexpr double kDoubtOdds = 2.0;
-constexpr std::array kWaysOfStanding_m{0.0, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.2, 1.5};
-constexpr double kClearlyDrives = 5.0;  // nats
+constexpr double kStill_m = 0.01;
+constexpr double kStill_rad = 0.002;
+constexpr double kLongStanding_s = 0.4;  // between two keyframes: a car that sets off is then
+                                         // within reach of a match
+constexpr std::int64_t kAgain_ns = 200'000'000;
+constexpr double kPatience_s = 4.0;     // with one keyframe
 constexpr double kAsWell = 0.97;        // of the fit
-constexpr double kSure_m = 0.01;        // one sigma of what is expected, if it is right,
-constexpr double kSureShare = 0.02;     // and what the way adds
-constexpr double kSure_rad = 0.005;
-constexpr double kExpected_m = 0.1;     // one sigma of what is expected,
 constexpr double kExpectedShare = 0.5;  // and of the way and the turn
-constexpr double kExpected_rad = 0.02;
-constexpr double kFloor_m = 0.01;  // of what two scans tell
-constexpr double kFloor_rad = 0.002;
 constexpr double kMostEchoes = 1000.0;  // weight limit: more than a scan has
 
-double squared(double value) { return value * value; }
+bool stands(const Pose2& moved) {
+  return std::hypot(moved.x_m, moved.y_m) < kStill_m && std::abs(moved.heading_rad) < kStill_rad;
+}
 
 bool is_far(const Pose2& moved) {
   return std::hypot(moved.x_m, moved.y_m) >= kFar_m || std::abs(moved.heading_rad) >= kFar_rad;
-}
-
-UncertainPose2 with_floor(UncertainPose2 pose) {
-  pose.covariance.diagonal() +=
-      Eigen::Vector3d(squared(kFloor_m), squared(kFloor_m), squared(kFloor_rad));
-  return pose;
 }
 
 }  // namespace
@@ -138,15 +129,11 @@ std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected
       expected,
       Eigen::Vector3d(squared(ahead_m), squared(kExpected_m), squared(turn_rad)).asDiagonal()};
   // What is expected has the first say: along a street many places fit a little better by chance.
-  const geometry::Matrix3 sure_covariance =
-      Eigen::Vector3d(squared(kSure_m + kSureShare * way_m), squared(kSure_m + kSureShare * way_m),
-                      squared(kSure_rad))
-          .asDiagonal();
-  UncertainPose2 sure{expected, sure_covariance};
+  UncertainPose2 sure = surely(expected, way_m);
   matching::PointToLineResult as_expected = registered_about(sure, points);
   // An estimate that has gone astray confirms itself where places look alike: odometry that fits as
   // well is right.
-  const UncertainPose2 by_odometry{by_wheels, sure_covariance};
+  const UncertainPose2 by_odometry = surely(by_wheels, way_m);
   const matching::PointToLineResult as_by_wheels = registered_about(by_odometry, points);
   if (matching::fit_of(as_by_wheels, match_.robust_scale_m) >
       kAsWell * matching::fit_of(as_expected, match_.robust_scale_m)) {
@@ -177,10 +164,7 @@ std::span<const double> KeyframeOdometry::fits_at(double heading_rad,
 
 std::optional<UncertainPose2> KeyframeOdometry::registered_near(const Pose2& pose,
                                                                 const ScanPoints& points) {
-  const UncertainPose2 prior{
-      pose, Eigen::Vector3d(squared(kExpected_m), squared(kExpected_m), squared(kExpected_rad))
-                .asDiagonal()};
-  const matching::PointToLineResult result = registered_about(prior, points);
+  const matching::PointToLineResult result = registered_about(about(pose), points);
   if (result.matched_share < kLeastShare) return std::nullopt;
   return with_floor(result.map_from_base);
 }
@@ -211,23 +195,6 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
   if (comparison.by_scans) comparison.extra_odds = -kDoubtOdds;
 }
 
-/// Wheels that stand while the vehicle begins to drive.
-void KeyframeOdometry::judge_standing(const Pose2& by_wheels, const ScanPoints& points,
-                                      sensing::OdometryComparison& comparison) {
-  std::array<geometry::Vector2, kWaysOfStanding_m.size()> positions_m;
-  std::ranges::transform(kWaysOfStanding_m, positions_m.begin(), [&](double way_m) {
-    return geometry::Vector2(by_wheels.x_m + way_m, by_wheels.y_m);
-  });
-  const std::span<const double> fits = fits_at(by_wheels.heading_rad, positions_m, points);
-  const auto best_fit = std::ranges::max_element(fits);
-  const double standing = fits.front();
-  const double best_m = kWaysOfStanding_m[static_cast<std::size_t>(best_fit - fits.begin())];
-  if (nats_ * points.evidence_share() * (*best_fit - standing) < kClearlyDrives) return;
-  comparison.by_scans =
-      registered_near({by_wheels.x_m + best_m, by_wheels.y_m, by_wheels.heading_rad}, points);
-  if (comparison.by_scans) comparison.extra_odds = -kClearlyDrives;
-}
-
 std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen& seen) {
   const Step& step = seen.step;
   if (!step.wheel_from_base || step.usual_duration_s > sensing::kRareScans_s) {
@@ -255,13 +222,23 @@ std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen&
       geometry::inverse(state_.keyframe->wheel_from_base) * *step.wheel_from_base;
   const Pose2 expected = geometry::inverse(state_.keyframe->odom_from_base) * seen.odom_from_base;
   const double duration_s = static_cast<double>(step.stamp_ns - state_.keyframe->stamp_ns) * 1e-9;
-  if (!is_far(by_wheels) && !is_far(expected) && duration_s < kLong_s) return std::nullopt;
+  const bool is_still =
+      stands(by_wheels) && !is_far(expected) && !seen.prediction.state().belief.is_disbelieved;
+  const double long_s = is_still ? kLongStanding_s : kLong_s;
+  if (!is_far(by_wheels) && !is_far(expected) && duration_s < long_s) return std::nullopt;
+  if (is_still && state_.compared_ns && step.stamp_ns - *state_.compared_ns < kAgain_ns)
+    return std::nullopt;
   const Pose2 as_believed = seen.prediction.as_believed(by_wheels, duration_s);
   last_ = sensing::OdometryComparison{by_wheels, as_believed,
                                       registered(expected, as_believed, seen.points), duration_s};
+  Standing standing = Standing::kConfirmed;
   if (as_believed.translation_m().norm() > kStands_m) judge_way(as_believed, seen.points, *last_);
-  else judge_standing(as_believed, seen.points, *last_);
+  else if (is_still) standing = judge_standing(as_believed, seen.points, *last_);
   state_.compared_ns = step.stamp_ns;
+  if (is_still && standing == Standing::kUnclear && duration_s < kPatience_s) {
+    state_.is_in_doubt = true;  // the next scans are compared with the same place
+    return last_;
+  }
   // Sound odometry is looked at a few times a second only.
   state_.is_in_doubt = !last_->by_scans || last_->extra_odds != 0.0 ||
                        state_.way_ratio.sound_probability() < kSoundAbove;

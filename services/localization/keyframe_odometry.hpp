@@ -75,6 +75,12 @@ class KeyframeOdometry {
     double rival_fit = 0.0;
   };
   BestPlace best_place(const geometry::UncertainPose2& prior, const ScanPoints& points);
+  struct PlaceAhead {
+    geometry::Pose2 pose;  ///< In the keyframe's base.
+    double fit = 0.0;
+    double rival_fit = 0.0;
+  };
+  PlaceAhead place_ahead(const geometry::Pose2& by_wheels, const ScanPoints& points);
   std::optional<geometry::UncertainPose2> registered(const geometry::Pose2& expected,
                                                      const geometry::Pose2& by_wheels,
                                                      const ScanPoints& points);
@@ -82,8 +88,9 @@ class KeyframeOdometry {
                                                           const ScanPoints& points);
   void judge_way(const geometry::Pose2& by_wheels, const ScanPoints& points,
                  sensing::OdometryComparison& comparison);
-  void judge_standing(const geometry::Pose2& by_wheels, const ScanPoints& points,
-                      sensing::OdometryComparison& comparison);
+  enum class Standing { kConfirmed, kUnclear, kRefuted };
+  Standing judge_standing(const geometry::Pose2& by_wheels, const ScanPoints& points,
+                          sensing::OdometryComparison& comparison);
 
   matching::PointToLineConfig match_;
   grids::SurfelMap surfels_;  ///< Of the keyframe, in its base.

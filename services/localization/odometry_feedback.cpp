@@ -37,6 +37,8 @@ geometry::Vector2 OdometryPrediction::compare(const sensing::OdometryComparison&
       was_disbelieved || !belief.is_disbelieved
           ? geometry::Vector2::Zero()
           : sensing::unnoticed_error_m(comparison, unconfirmed_s(comparison));
+  if (!was_disbelieved && belief.is_disbelieved && comparison.odom_from_keyframe)
+    take_back_standing(comparison);
   if (sensing::confirms(comparison)) belief.confirmed_ns = state_.last->stamp_ns;
   belief.disbelieved_s = belief.is_disbelieved ? belief.disbelieved_s + comparison.duration_s : 0.0;
   if (belief.disbelieved_s < kAdoptAfter_s || belief.log_odds_of_factors < kAdoptAbove)
@@ -45,6 +47,15 @@ geometry::Vector2 OdometryPrediction::compare(const sensing::OdometryComparison&
   belief.log_odds = belief.log_odds_of_factors;
   belief.is_disbelieved = false;
   return unnoticed_m;
+}
+
+/// The pose was held back by wheels that stand: it goes to where the scans have it.
+void OdometryPrediction::take_back_standing(const sensing::OdometryComparison& comparison) {
+  const geometry::UncertainPose2 keyframe{*comparison.odom_from_keyframe,
+                                          state_.estimate.uncertain_pose().covariance};
+  const geometry::UncertainPose2 placed = geometry::compound(keyframe, *comparison.by_scans);
+  state_.estimate = sensing::put_at(state_.estimate, placed);
+  state_.with_stamp_offset = sensing::put_at(state_.with_stamp_offset, placed);
 }
 
 /// How long odometry has not been confirmed, at the scan of a comparison.

@@ -203,6 +203,7 @@ class OdometryPrediction {
   void go_on_at_velocity(const sensing::MotionEstimate& before, Step& step) const;
   void go_on_without_wheels(Step& step) const;
   void adopt_wheel_factors();
+  void take_back_standing(const sensing::OdometryComparison& comparison);
   void learn_wheels(const Step& step, const ScanMatch& match);
   void learn_stamp_offset(const Step& step, const ScanMatch& match);
   void renew_map(const geometry::Pose2& before_from_base, const ScanMatch& match);

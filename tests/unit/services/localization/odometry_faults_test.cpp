@@ -255,6 +255,25 @@ TEST(OdometryFaultsOfACar, DISABLED_DoNotCarryThePoseOnWhereWheelsSlip) {
   expect_good(drive_with(car(), slip(1.0, 0.1), kScans));
 }
 
+/// The car, which begins to drive with 2 m/s^2.
+DriveSetup car_that_sets_off() {
+  DriveSetup setup = car();
+  setup.world_from_base_at = [drives = setup.world_from_base_at](double time_s) {
+    constexpr double kAcceleration_mps2 = 2.0, kSpeed_mps = 5.0;
+    const double speeding_s = kSpeed_mps / kAcceleration_mps2;
+    const double first_s = std::min(time_s, speeding_s);
+    const double way_m = 0.5 * kAcceleration_mps2 * first_s * first_s +
+                         kSpeed_mps * std::max(0.0, time_s - speeding_s);
+    return drives(way_m / kSpeed_mps);
+  };
+  return setup;
+}
+
+// Before the standing wheels were compared with the scans it was left 118 m behind.
+TEST(OdometryFaultsOfACarThatSetsOff, DoNotHoldThePoseForLongWhereWheelsNeverMove) {
+  expect_good(drive_with(car_that_sets_off(), frozen, kScans), 1.0);
+}
+
 TEST(OdometryFaultsOfACar, DISABLED_LeaveTheCovarianceHonest) {
   for (const Fault& fault : {scaled(1.3, 1.0), scaled(1.0, -1.0), during(6.0, 12.0, frozen)}) {
     const DriveResult result = drive_with(car(), fault, kScans);
