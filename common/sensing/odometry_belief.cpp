@@ -37,16 +37,19 @@ constexpr double kMostMisfit = 3.0;
 
 double squared(double value) { return value * value; }
 
-/// Wheels that count nothing while the vehicle moves tell nothing of their factors.
-bool are_frozen(const Pose2& by_wheels, const Pose2& by_matches) {
+bool count_nothing(const Pose2& by_wheels) {
   constexpr double kNothing_m = 1e-4;
   constexpr double kNothing_rad = 1e-4;
+  return std::hypot(by_wheels.x_m, by_wheels.y_m) < kNothing_m &&
+         std::abs(by_wheels.heading_rad) < kNothing_rad;
+}
+
+/// Wheels that count nothing while the vehicle moves tell nothing of their factors.
+bool are_frozen(const Pose2& by_wheels, const Pose2& by_matches) {
   constexpr double kMoves_m = 0.03;
   constexpr double kMoves_rad = 0.02;
-  const bool stand = std::hypot(by_wheels.x_m, by_wheels.y_m) < kNothing_m &&
-                     std::abs(by_wheels.heading_rad) < kNothing_rad;
-  return stand && (std::hypot(by_matches.x_m, by_matches.y_m) > kMoves_m ||
-                   std::abs(by_matches.heading_rad) > kMoves_rad);
+  return count_nothing(by_wheels) && (std::hypot(by_matches.x_m, by_matches.y_m) > kMoves_m ||
+                                      std::abs(by_matches.heading_rad) > kMoves_rad);
 }
 
 }  // namespace
@@ -261,6 +264,12 @@ OdometryBelief with_changed_wheels(OdometryBelief belief) {
 }
 
 OdometryBelief with_wheels(OdometryBelief belief, const Pose2& by_wheels, double duration_s) {
+  const bool count_again = belief.last_duration_s > 0.0 && count_nothing(belief.last_by_wheels) &&
+                           !count_nothing(by_wheels);
+  if (belief.is_disbelieved && count_again) {
+    belief.is_disbelieved = false;
+    belief.log_odds = 0.0;
+  }
   belief.previous_by_wheels = belief.last_by_wheels;
   belief.previous_duration_s = belief.last_duration_s;
   belief.last_by_wheels = by_wheels;

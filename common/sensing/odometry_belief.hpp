@@ -184,7 +184,8 @@ bool has_changed(const OdometryBelief& belief, const geometry::Pose2& by_wheels,
 /// that it is right.
 OdometryBelief with_changed_wheels(OdometryBelief belief);
 
-/// State after a step with this odometry.
+/// State after a step with this odometry. What wheels were disbelieved for is over when they
+/// counted nothing at the last step and count again: comparisons decide anew.
 OdometryBelief with_wheels(OdometryBelief belief, const geometry::Pose2& by_wheels,
                            double duration_s);
 

@@ -308,6 +308,40 @@ TEST(OdometryBelief, KnowsHowFarScansAreApartAndWhatExplainedTheLastOne) {
   EXPECT_EQ(belief.last, StepExplanation::kRoughWheels);
 }
 
+TEST(OdometryBelief, GivesWheelsThatCountAgainAnotherChance) {
+  OdometryBelief belief;
+  belief.is_disbelieved = true;
+  belief.log_odds = -4.0;
+  belief = with_wheels(belief, {0.0, 0.0, 0.0}, 0.1);
+  EXPECT_TRUE(belief.is_disbelieved);
+  belief = with_wheels(belief, {0.0, 0.0, 0.0}, 0.1);
+  EXPECT_TRUE(belief.is_disbelieved);
+  belief = with_wheels(belief, {0.5, 0.0, 0.0}, 0.1);
+  EXPECT_FALSE(belief.is_disbelieved);
+  EXPECT_EQ(belief.log_odds, 0.0);
+}
+
+TEST(OdometryBelief, TakesStandingThatScansConfirmForNoEvidence) {
+  const geometry::UncertainPose2 still{{0.0, 0.0, 0.0}, 1e-5 * geometry::Matrix3::Identity()};
+  const OdometryComparison stands{
+      .by_wheels = {}, .as_believed = {}, .by_scans = still, .duration_s = 0.4};
+  OdometryBelief belief;
+  const double before = belief.log_odds;
+  for (int i = 0; i < 10; ++i) belief = compared(belief, stands);
+  EXPECT_EQ(belief.log_odds, before);
+  OdometryComparison moves = stands;
+  moves.by_scans->pose.x_m = 0.3;
+  EXPECT_FALSE(both_stand(moves));
+  EXPECT_LT(compared(belief, moves).log_odds, before);
+}
+
+TEST(WheelFactorEstimator, LearnsNothingFromWheelsThatAreFrozen) {
+  WheelFactorEstimator estimator;
+  for (int i = 0; i < 50; ++i) estimator.observe({}, {0.5, 0.0, -0.01}, 0.1);
+  EXPECT_EQ(estimator.factors().turn_bias_radps, 0.0);
+  EXPECT_EQ(estimator.steps(), 0);
+}
+
 TEST(OdometryComparison, ConfirmsOnlyWhereScansTellTheWay) {
   const OdometryComparison agrees{
       .by_wheels = {1.0, 0.0, 0.0},
