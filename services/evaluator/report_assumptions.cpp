@@ -95,8 +95,9 @@ std::string assumptions_section(const std::string& report_json) {
     profile += " (" + reason + ")";
   return "<section><h2>What was assumed</h2><table class=\"words\">" +
          row("clock", clock_text(input)) + row("odometry", odometry_text(*report, input)) +
-         gyro_row(*report) + row("scanner", scanner_text(input)) + row("mounting", mounting_text(input)) +
-         row("profile", profile) + findings_rows(input) + "</table></section>";
+         gyro_row(*report) + row("scanner", scanner_text(input)) +
+         row("mounting", mounting_text(input)) + row("profile", profile) + findings_rows(input) +
+         "</table></section>";
 }
 
 std::string closures_section(const std::string& report_json) {

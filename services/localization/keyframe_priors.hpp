@@ -17,7 +17,7 @@ inline constexpr double kExpected_m = 0.1;   // one sigma of what is expected,
 inline constexpr double kLeastShare = 0.35;  // of the points
 inline constexpr double kSame_m = 0.05;      // two registrations that end nearer to each other
 inline constexpr double kRivalShare = 0.9;   // another place that fits as well as this share of the
-                                            // best: nothing is told
+                                             // best: nothing is told
 
 inline double squared(double value) { return value * value; }
 
