@@ -10,15 +10,12 @@ The evaluations stay in OUTPUT/SCENARIO-SEED/evaluation.json; `--again` takes th
 2 the program is missing.
 """
 
-import argparse
-import concurrent.futures
 import json
 import pathlib
 import sys
 
-from tables import evaluated_run, replaced_between, seeds_in
+from tables import evaluated_run, parser_of_scenarios, replaced_between, table_of_scenarios
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIOS = ("city", "quiet", "block", "crowd")
 KINDS = {"lane": "lanes", "cycle_lane": "cycle lanes", "walkway": "walkways"}
 BEGIN = "<!-- lanes: written by tests/tools/lanes_table.py --write -->"
@@ -65,33 +62,10 @@ def page_with(page, text):
     return replaced_between(BEGIN, END, page, text)
 
 
-def options_of(arguments):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--binary", default=str(ROOT / "build/release/bin/slammot"))
-    parser.add_argument("--scenario", nargs="+", default=list(SCENARIOS))
-    parser.add_argument("--seeds", type=seeds_in, default=seeds_in("901-905"), metavar="1-20,33")
-    parser.add_argument("--config", default="", metavar="TEXT", help="settings as in a file for --config [the defaults]")
-    parser.add_argument("--output", default=str(ROOT / "out/lanes"), metavar="DIR")
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--again", action="store_true", help="take the evaluations that are there")
-    parser.add_argument("--write", action="store_true", help="put the table into docs/results.md")
-    return parser.parse_args(arguments)
-
-
 def main(arguments):
-    options = options_of(arguments)
-    if not pathlib.Path(options.binary).exists():
-        print(f"lanes_table: {options.binary} is missing", file=sys.stderr)
-        return 2
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        runs = {scenario: [pool.submit(evaluated, scenario, seed, options) for seed in options.seeds] for scenario in options.scenario}
-        results = {scenario: [run.result() for run in of_scenario] for scenario, of_scenario in runs.items()}
-    text = table({scenario: [figures for figures in all_figures if figures] for scenario, all_figures in results.items()})
-    print(text)
-    if options.write:
-        page = ROOT / "docs/results.md"
-        page.write_text(page_with(page.read_text(), text))
-    return 1 if any(figures is None for all_figures in results.values() for figures in all_figures) else 0
+    parser = parser_of_scenarios(__doc__, SCENARIOS, seeds="901-905", output="out/lanes")
+    parser.add_argument("--again", action="store_true", help="take the evaluations that are there")
+    return table_of_scenarios(parser.parse_args(arguments), evaluated, table, page_with)
 
 
 if __name__ == "__main__":

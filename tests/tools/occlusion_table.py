@@ -9,16 +9,12 @@
 The evaluations stay in OUTPUT/SCENARIO-SEED/evaluation.json. Exit code: 0 all runs ended, 1 one did not, 2 the program is missing.
 """
 
-import argparse
-import concurrent.futures
 import json
 import math
-import pathlib
 import sys
 
-from tables import evaluated_run, replaced_between, seeds_in
+from tables import evaluated_run, parser_of_scenarios, replaced_between, table_of_scenarios
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENARIOS = ("occluded_car", "bus_stop", "far_crossing", "crowd")
 WANTED = {"occluded_car": 0.95, "bus_stop": 0.90, "far_crossing": 0.90, "crowd": 0.75}  # share of identities kept up to 5 s
 UP_TO_S = 5.0
@@ -86,32 +82,9 @@ def page_with(page, text):
     return replaced_between(BEGIN, END, page, text)
 
 
-def options_of(arguments):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--binary", default=str(ROOT / "build/release/bin/slammot"))
-    parser.add_argument("--scenario", nargs="+", default=list(SCENARIOS))
-    parser.add_argument("--seeds", type=seeds_in, default=seeds_in("1-20"), metavar="1-20,33")
-    parser.add_argument("--config", default="", metavar="TEXT", help="settings as in a file for --config [the defaults]")
-    parser.add_argument("--output", default=str(ROOT / "out/occlusion"), metavar="DIR")
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--write", action="store_true", help="put the table into docs/results.md")
-    return parser.parse_args(arguments)
-
-
 def main(arguments):
-    options = options_of(arguments)
-    if not pathlib.Path(options.binary).exists():
-        print(f"occlusion_table: {options.binary} is missing", file=sys.stderr)
-        return 2
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        runs = {scenario: [pool.submit(evaluated, scenario, seed, options) for seed in options.seeds] for scenario in options.scenario}
-        results = {scenario: [run.result() for run in of_scenario] for scenario, of_scenario in runs.items()}
-    text = table({scenario: [figures for figures in all_figures if figures] for scenario, all_figures in results.items()})
-    print(text)
-    if options.write:
-        page = ROOT / "docs/results.md"
-        page.write_text(page_with(page.read_text(), text))
-    return 1 if any(figures is None for all_figures in results.values() for figures in all_figures) else 0
+    parser = parser_of_scenarios(__doc__, SCENARIOS, seeds="1-20", output="out/occlusion")
+    return table_of_scenarios(parser.parse_args(arguments), evaluated, table, page_with)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 import occlusion_table
 from table_case import TableCase
+from tables import seeds_in
 
 PROGRAM = """#!/usr/bin/env python3
 import json, pathlib, sys
@@ -63,7 +64,7 @@ class OcclusionTable(TableCase):
             occlusion_table.page_with("no markers", "new")
 
     def test_reads_ranges_of_seeds(self):
-        self.assertEqual(occlusion_table.seeds_in("1-3,7"), [1, 2, 3, 7])
+        self.assertEqual(seeds_in("1-3,7"), [1, 2, 3, 7])
 
 
 if __name__ == "__main__":
