@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "common/traffic/squares.hpp"
+
 namespace slammot::traffic {
 namespace {
 
@@ -24,15 +26,6 @@ constexpr double kLeastWayM = 3.0;     // from the first state; a shorter one ma
                                        // box
 constexpr double kLongestGapS = 1.0;
 constexpr double kHalfCertainM2 = 0.25;  // variance of the position that halves the weight
-
-std::uint64_t key_of(std::int32_t column, std::int32_t row) {
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32U) |
-         static_cast<std::uint32_t>(row);
-}
-
-std::int32_t block_index(double coordinate_m) {
-  return static_cast<std::int32_t>(std::floor(coordinate_m / kBlockM));
-}
 
 Vector2 corner_of(std::uint64_t key) {
   const auto column = static_cast<std::int32_t>(static_cast<std::uint32_t>(key >> 32U));
@@ -133,8 +126,7 @@ void TrafficMap::add_step(const Passage& passage, const MoverState& from, const 
 }
 
 void TrafficMap::add_piece(const Piece& piece) {
-  const std::uint64_t key =
-      key_of(block_index(piece.position_m.x()), block_index(piece.position_m.y()));
+  const std::uint64_t key = square_key(piece.position_m, kBlockM);
   auto& blocks = blocks_[static_cast<std::size_t>(piece.mover)];
   if (is_full() && !blocks.contains(key)) return;
   Block& block = blocks[key];
@@ -171,15 +163,12 @@ void TrafficMap::add_piece(const Piece& piece) {
 void TrafficMap::append_near(Mover mover, const Vector2& centre_m, double half_side_m,
                              std::vector<PlacedStream>& found) const {
   const auto& blocks = blocks_[static_cast<std::size_t>(mover)];
-  for (std::int32_t row = block_index(centre_m.y() - half_side_m);
-       row <= block_index(centre_m.y() + half_side_m); ++row) {
-    for (std::int32_t column = block_index(centre_m.x() - half_side_m);
-         column <= block_index(centre_m.x() + half_side_m); ++column) {
-      const auto known = blocks.find(key_of(column, row));
-      if (known == blocks.end()) continue;
-      for (const Stream& stream : known->second) found.push_back(placed(stream, known->first));
-    }
-  }
+  any_square_near(centre_m, half_side_m, kBlockM, [&](std::uint64_t key) {
+    const auto known = blocks.find(key);
+    if (known == blocks.end()) return false;
+    for (const Stream& stream : known->second) found.push_back(placed(stream, known->first));
+    return false;
+  });
 }
 
 std::vector<PlacedStream> TrafficMap::streams(Mover mover) const {
