@@ -38,23 +38,10 @@ slammot_precompile(core_headers LINK Eigen3::Eigen OPTIONS ${SLAMMOT_LIBRARY_OPT
   <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <filesystem> <functional> <map> <memory> <numbers> <numeric>
   <optional> <random> <set> <span> <sstream> <string> <string_view> <utility> <variant> <vector>)
 
-# slammot_joined(joined commands a.cpp b.cpp): sets joined to one source that includes the others, where their common headers
-# (CLI11, nlohmann::json, Boost.Beast) cost more to compile than they do themselves. Only in releases;
-# elsewhere each is compiled by itself, as clang-tidy wants it.
-function(slammot_joined joined name)
-  if(NOT SLAMMOT_JOIN_SOURCES)
-    set(${joined} ${ARGN} PARENT_SCOPE)
-    return()
-  endif()
-  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE folder)
-  list(TRANSFORM ARGN REPLACE "(.+)" "#include \"${folder}/\\1\"\n" OUTPUT_VARIABLE lines)
-  list(JOIN lines "" content)
-  set(file ${CMAKE_CURRENT_BINARY_DIR}/${name}_joined.cpp)
-  file(CONFIGURE OUTPUT ${file} CONTENT "${content}")
-  set(${joined} ${file} PARENT_SCOPE)
-endfunction()
-
 # slammot_library(common_geometry SOURCES a.cpp b.cpp LINK Eigen3::Eigen)
+# Releases compile up to 12 sources of a library as one: their common headers (Eigen, CLI11, nlohmann::json, Boost.Beast) cost more
+# than they do themselves. So names are unique within a library, also those without linkage. Elsewhere each is compiled by itself:
+# for clang-tidy, and as a check that it includes what it uses.
 function(slammot_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
@@ -62,6 +49,7 @@ function(slammot_library name)
   target_compile_features(${name} PUBLIC cxx_std_20)
   target_compile_options(${name} PRIVATE ${SLAMMOT_LIBRARY_OPTIONS})
   target_precompile_headers(${name} REUSE_FROM core_headers)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${SLAMMOT_JOIN_SOURCES} UNITY_BUILD_BATCH_SIZE 12)
   target_link_libraries(${name} PUBLIC ${ARG_LINK})
 endfunction()
 

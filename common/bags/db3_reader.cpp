@@ -96,7 +96,6 @@ Db3Reader::Statement Db3Reader::prepare(const char* query) {
 }
 
 void Db3Reader::read_channels() {
-  constexpr std::size_t kMaxChannels = 65'536;
   const Statement topics = prepare("SELECT id, name, type, serialization_format FROM topics");
   if (!topics) return;
   int outcome = sqlite3_step(topics.get());

@@ -12,8 +12,6 @@ namespace {
 
 using namespace mcap_format;
 
-constexpr std::size_t kMaxChannels = 65'536;
-
 bool is_of_use(std::uint8_t opcode) {
   return opcode == kSchema || opcode == kChannel || opcode == kMessage || opcode == kChunk;
 }

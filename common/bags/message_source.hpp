@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +11,9 @@ namespace slammot::bags {
 
 /// How the bytes of a message are to be understood.
 enum class Serialization : std::uint8_t { kRos1, kCdr, kOther };
+
+inline constexpr std::size_t kMaxChannels = 65'536;  ///< Of one bag; what it has beyond is left
+                                                     ///< out.
 
 /// One topic as one writer has it.
 struct Channel {

@@ -7,10 +7,14 @@
 namespace slammot::bags {
 namespace {
 
-constexpr std::size_t kMaxChannels = 65'536;
 constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t{1} << 20;
 
-enum Op : std::uint8_t { kMessage = 0x02, kBagHeader = 0x03, kChunk = 0x05, kConnection = 0x07 };
+enum Op : std::uint8_t {
+  kMessageData = 0x02,
+  kBagHeader = 0x03,
+  kBagChunk = 0x05,
+  kConnection = 0x07
+};
 
 /// One field "name=value" of a header; empty where there is none.
 std::pair<std::string_view, Bytes> next_field(ByteReader& reader) {
@@ -76,7 +80,7 @@ std::optional<RawMessage> Ros1BagReader::next() {
       }
       chunk_at_ += reader.position();
       if (record->head.op == kConnection) take_connection(*record);
-      if (record->head.op != kMessage) continue;
+      if (record->head.op != kMessageData) continue;
       if (auto message = message_of(*record)) return message;
     }
     if (has_ended_ || !read_record()) return std::nullopt;
@@ -106,7 +110,7 @@ bool Ros1BagReader::read_record() {
   if (!head) return note("no record begins at byte " + std::to_string(record_begins_)), false;
   const auto data_bytes = ByteReader(data_).number<std::uint32_t>();
   if (head->op == kBagHeader) index_at_ = head->index_at;
-  const bool is_of_use = head->op == kChunk || head->op == kConnection;
+  const bool is_of_use = head->op == kBagChunk || head->op == kConnection;
   if (!is_of_use || data_bytes > kMostUnpackedBytes) {
     if (is_of_use)
       note("the record at byte " + std::to_string(record_begins_) + " is said to have " +
@@ -119,7 +123,7 @@ bool Ros1BagReader::read_record() {
   const bool is_whole = data_.size() == data_bytes;
   if (!is_whole) note("the file ends in the record at byte " + std::to_string(record_begins_));
   has_ended_ = !is_whole;
-  if (head->op == kChunk) take_chunk(*head, is_whole);
+  if (head->op == kBagChunk) take_chunk(*head, is_whole);
   else if (is_whole) take_connection({*head, data_});
   return is_whole || chunk_at_ < chunk_.size();
 }

@@ -6,18 +6,18 @@
 #include <utility>
 
 namespace slammot::city_model {
+/// Poses at the first beam and at the last one.
+struct Sweep {
+  geometry::Pose2 begin;
+  geometry::Pose2 end;
+};
+
 namespace {
 
 using geometry::Pose2;
 using geometry::Vector2;
 
 constexpr std::int64_t kLongestGap_ns = 1'000'000'000;  ///< Between two poses.
-
-/// Poses at the first beam and at the last one.
-struct Sweep {
-  Pose2 begin;
-  Pose2 end;
-};
 
 std::optional<Sweep> sweep(const metrics::Trajectory& trajectory, const sensing::LaserScan& scan) {
   const std::int64_t sweep_ns = std::llround(1e9 * scan.scanner.sweep_s);

@@ -9,10 +9,9 @@
 namespace slammot::dds {
 namespace {
 
-using Durability = EndpointQos::Durability;
 using Liveliness = EndpointQos::Liveliness;
 
-const char* name_of(Durability durability) {
+const char* name_of(EndpointQos::Durability durability) {
   static constexpr const char* kNames[] = {"volatile", "transient-local", "transient",
                                            "persistent"};
   return kNames[static_cast<int>(durability)];
@@ -79,7 +78,7 @@ EndpointQos endpoint_qos(const dds_qos_t* qos) {
     result.is_reliable = reliability == DDS_RELIABILITY_RELIABLE;
   dds_durability_kind_t durability;
   if (dds_qget_durability(qos, &durability))
-    result.durability = static_cast<Durability>(durability);
+    result.durability = static_cast<EndpointQos::Durability>(durability);
   dds_history_kind_t history;
   std::int32_t depth = 1;
   if (dds_qget_history(qos, &history, &depth))

@@ -8,7 +8,7 @@
 namespace slammot::dds {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 4;
+constexpr std::size_t kCdrHeaderBytes = 4;
 
 QosPointer qos_for(const TopicInfo& info, const OfferedQos& offered) {
   QosPointer qos(dds_create_qos(), dds_delete_qos);
@@ -50,7 +50,7 @@ RawWriter::RawWriter(const Participant& participant, std::shared_ptr<const RawTo
       type_(opaque.type) {}
 
 RawWriteResult RawWriter::write(const RawSample& sample) {
-  if (sample.cdr.size() < kHeaderBytes) return RawWriteResult::kMalformed;
+  if (sample.cdr.size() < kCdrHeaderBytes) return RawWriteResult::kMalformed;
   const ddsrt_iovec_t bytes = {const_cast<std::uint8_t*>(sample.cdr.data()), sample.cdr.size()};
   ddsi_serdata* const made =
       ddsi_serdata_from_ser_iov(type_, SDK_DATA, 1, &bytes, sample.cdr.size());

@@ -126,7 +126,7 @@ void describe_doubts(const LogPlan& plan, std::vector<std::string>& findings) {
         text("turns by odometry are %.2f times those by scans", 1.0 / evidence.turn_scale));
 }
 
-const char* name_of(OdometrySource source) {
+const char* described(OdometrySource source) {
   switch (source) {
     case OdometrySource::kNone: return "none";
     case OdometrySource::kLaserRecords: return "poses in the scans";
@@ -158,7 +158,7 @@ std::string describe_profiles_of(const ScannerPlan& scanner) {
 
 std::string describe_odometry(const LogPlan& plan) {
   const matching::LogEvidence& evidence = plan.evidence;
-  std::string line = name_of(plan.odometry);
+  std::string line = described(plan.odometry);
   if (plan.odometry == OdometrySource::kNone) return line;
   line += text(", %.0f m", plan.figures.distance_m);
   if (evidence.pairs == 0) return line;

@@ -12,7 +12,7 @@ constexpr double kFasterThanWalkingMps = 3.0;
 constexpr double kFartherThanHallsM = 25.0;
 constexpr double kRareScansS = 0.5;  // scans triggered by motion, as robots log them
 
-std::string rounded(double value) {
+std::string two_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value);
   return text;
@@ -25,8 +25,8 @@ bool sees_all_around(const LogFigures& figures) {
 }  // namespace
 
 ProfileChoice choose_profile(const LogFigures& figures) {
-  const std::string speed = rounded(figures.cruising_speed_mps) + " m/s";
-  const std::string range = "9 of 10 echoes within " + rounded(figures.far_range_m) + " m";
+  const std::string speed = two_digits(figures.cruising_speed_mps) + " m/s";
+  const std::string range = "9 of 10 echoes within " + two_digits(figures.far_range_m) + " m";
   const bool sees_far = figures.far_range_m > kFartherThanHallsM;
   const bool is_fast = figures.has_clock && figures.cruising_speed_mps > kFasterThanWalkingMps;
   if (is_fast) return {"urban", "the vehicle drives at " + speed + ", " + range};

@@ -19,7 +19,7 @@ constexpr std::string_view kVertex =
     "green\nproperty uchar blue\n";
 constexpr std::string_view kFaces = "element face ";
 constexpr std::string_view kFace = "property list uchar uint vertex_indices\n";
-constexpr std::string_view kEnd = "end_header\n";
+constexpr std::string_view kEndOfHeader = "end_header\n";
 constexpr std::size_t kVertexBytes = 3 * sizeof(float) + 3;
 constexpr std::size_t kQuadBytes = 1 + 4 * sizeof(std::uint32_t);
 
@@ -71,7 +71,7 @@ std::string to_ply(const PlyModel& model) {
     bytes += std::to_string(model.quads.size()) + "\n";
     bytes += kFace;
   }
-  bytes += kEnd;
+  bytes += kEndOfHeader;
   bytes.reserve(bytes.size() + model.vertices.size() * kVertexBytes +
                 model.quads.size() * kQuadBytes);
   for (const PlyVertex& vertex : model.vertices) {
@@ -96,7 +96,7 @@ Result<PlyModel> parse_ply(std::string_view bytes, const std::string& name) {
     quads = reader.count();
     if (!quads || !reader.skip(kFace)) return fault;
   }
-  if (!reader.skip(kEnd)) return fault;
+  if (!reader.skip(kEndOfHeader)) return fault;
   if (*vertices > reader.size() / kVertexBytes || *quads > reader.size() / kQuadBytes ||
       reader.size() != *vertices * kVertexBytes + *quads * kQuadBytes)
     return fault;

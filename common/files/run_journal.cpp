@@ -8,7 +8,7 @@ namespace slammot::files {
 namespace {
 
 constexpr const char* kBegin = "slammot-journal-3";
-constexpr char kEnd = ';';  // marks a completely written line
+constexpr char kEndOfLine = ';';  // marks a completely written line
 
 std::ostream& operator<<(std::ostream& to, const geometry::Pose2& pose) {
   return to << pose.x_m << ' ' << pose.y_m << ' ' << pose.heading_rad;
@@ -37,7 +37,7 @@ class Line {
     text_ << value << ' ';
     return *this;
   }
-  std::string str() const { return text_.str() + kEnd + '\n'; }
+  std::string str() const { return text_.str() + kEndOfLine + '\n'; }
 
  private:
   std::ostringstream text_;
@@ -128,7 +128,7 @@ std::optional<RunJournal::Content> RunJournal::read(const std::filesystem::path&
   if (!(stream >> mark >> content.map_id.value >> content.odom_id.value) || mark != kBegin)
     return std::nullopt;
   for (std::string text; std::getline(stream, text);) {
-    if (!text.ends_with(kEnd)) continue;
+    if (!text.ends_with(kEndOfLine)) continue;
     std::istringstream line(text);
     char kind = 0;
     line >> kind;

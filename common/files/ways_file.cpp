@@ -17,21 +17,21 @@ using WayJson = nlohmann::ordered_json;
 
 constexpr std::array<const char*, traffic::kMovers> kKinds = {"lane", "cycle_lane", "walkway"};
 
-double rounded(double value) { return std::round(value * 1e3) / 1e3; }
+double in_thousandths(double value) { return std::round(value * 1e3) / 1e3; }
 
 WayJson json_of(const traffic::Way& way) {
   WayJson coordinates = WayJson::array();
   for (const geometry::Vector2& point_m : way.points_in_map_m)
-    coordinates.push_back({rounded(point_m.x()), rounded(point_m.y())});
+    coordinates.push_back({in_thousandths(point_m.x()), in_thousandths(point_m.y())});
   return {{"type", "Feature"},
           {"properties",
            {{"kind", kKinds[static_cast<std::size_t>(way.mover)]},
             {"line", way.line},
-            {"speed", rounded(way.speed_mps)},
-            {"speed_spread", rounded(way.speed_spread_mps)},
-            {"width", rounded(way.width_m)},
-            {"tracks", rounded(way.tracks)},
-            {"confidence", rounded(way.confidence)}}},
+            {"speed", in_thousandths(way.speed_mps)},
+            {"speed_spread", in_thousandths(way.speed_spread_mps)},
+            {"width", in_thousandths(way.width_m)},
+            {"tracks", in_thousandths(way.tracks)},
+            {"confidence", in_thousandths(way.confidence)}}},
           {"geometry", {{"type", "LineString"}, {"coordinates", std::move(coordinates)}}}};
 }
 

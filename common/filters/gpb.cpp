@@ -5,12 +5,6 @@
 #include <cmath>
 
 namespace slammot::filters {
-namespace {
-
-double log_of(double probability) { return std::log(std::max(probability, 1e-300)); }
-
-}  // namespace
-
 Gpb1State gpb1_start(const ModelSet& set, const MotionState& estimate) {
   return {estimate, equal_weights(set)};
 }

@@ -93,8 +93,6 @@ void predict_pairs(double time_s, const Switching& switching, const ModelSet& se
   }
 }
 
-double log_of(double probability) { return std::log(std::max(probability, 1e-300)); }
-
 /// Updates the pairs and merges those that end in the same model.
 ImmUpdate updated_by_pairs(const ModelSet& set, const ImmState& predicted,
                            const Eigen::Vector2d& position_m, const Eigen::Matrix2d& R) {

@@ -59,6 +59,8 @@ Gaussian<2> moment_match_position(std::span<const MotionState> modes,
   return moment_match_first<2>(modes, weight);
 }
 
+double log_of(double probability) { return std::log(std::max(probability, 1e-300)); }
+
 double normalize_logs(std::span<double> log_weight) {
   const double largest = *std::max_element(log_weight.begin(), log_weight.end());
   double total = 0.0;

@@ -50,6 +50,9 @@ MotionState moment_match_moving(std::span<const MotionState> modes, std::span<co
 Gaussian<2> moment_match_position(std::span<const MotionState> modes,
                                   std::span<const double> weight);
 
+/// Logarithm of a probability that may be zero: -690 at least.
+double log_of(double probability);
+
 /// Converts log-weights to probabilities of sum 1; returns the logarithm of the weights' sum.
 double normalize_logs(std::span<double> log_weight);
 

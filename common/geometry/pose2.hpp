@@ -39,6 +39,9 @@ Matrix2 rotation(double angle_rad);
 /// Difference a - b: (x [m], y [m], heading [rad], wrapped), in the axes of the common frame.
 Eigen::Vector3d difference(const Pose2& a, const Pose2& b);
 
+/// Third component of the cross product of two vectors in the plane.
+inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
 /// Linear interpolation of x, y and heading (the short way round). fraction 0 gives from, 1 gives
 /// to; other values extrapolate.
 Pose2 interpolate(const Pose2& from, const Pose2& to, double fraction);

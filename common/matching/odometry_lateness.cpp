@@ -14,7 +14,7 @@ constexpr double kFarthest_s = 1.0;
 constexpr int kSteps = 50;  // in either direction
 constexpr double kStep_s = kFarthest_s / kSteps;
 constexpr double kLeast_s = 0.08;  // a smaller lateness is estimated during the drive
-constexpr std::size_t kFewestPairs = 12;
+constexpr std::size_t kFewestCompared = 12;
 constexpr double kTurnSigma_rad = 0.012;
 constexpr double kTurnShare = 0.05;
 constexpr double kStraight_rad = 0.05;
@@ -22,8 +22,8 @@ constexpr double kWaySigma_m = 0.05;
 constexpr double kWayShare = 0.06;
 constexpr double kMostSquaredError = 9.0;  // of one pair; limits the effect of wrong matches
 constexpr double kLeastError = 0.2;
-constexpr double kClearly = 12.0;  // in mean squared errors: an F statistic of one parameter, with
-                                   // a dozen candidate delays
+constexpr double kClearGain = 12.0;  // in mean squared errors: an F statistic of one parameter,
+                                     // with a dozen candidate delays
 
 std::optional<Pose2> pose_at(std::span<const TimedPose> odometry, double time_s) {
   const auto after = std::ranges::lower_bound(odometry, time_s, {}, &TimedPose::time_s);
@@ -70,7 +70,7 @@ std::vector<ScanPairMotion> covered(std::span<const ScanPairMotion> pairs,
 double odometry_lateness_s(std::span<const ScanPairMotion> pairs,
                            std::span<const TimedPose> odometry, double way_scale) {
   const std::vector<ScanPairMotion> compared = covered(pairs, odometry);
-  if (compared.size() < kFewestPairs || !(way_scale > 0.0)) return 0.0;
+  if (compared.size() < kFewestCompared || !(way_scale > 0.0)) return 0.0;
   std::vector<double> errors;
   for (int step = -kSteps; step <= kSteps; ++step) {
     double sum = 0.0;
@@ -82,7 +82,8 @@ double odometry_lateness_s(std::span<const ScanPairMotion> pairs,
   const auto at = [&](std::ptrdiff_t i) { return errors[static_cast<std::size_t>(i)]; };
   // a bad fit needs a larger improvement
   const double usual_error = std::max(at(best) / static_cast<double>(compared.size()), kLeastError);
-  if (best == 0 || best == 2 * kSteps || at(kSteps) - at(best) < kClearly * usual_error) return 0.0;
+  if (best == 0 || best == 2 * kSteps || at(kSteps) - at(best) < kClearGain * usual_error)
+    return 0.0;
   const double bend = at(best - 1) - 2.0 * at(best) + at(best + 1);
   const double within =
       bend > 0.0 ? std::clamp(0.5 * (at(best - 1) - at(best + 1)) / bend, -0.5, 0.5) : 0.0;

@@ -15,7 +15,7 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-constexpr int kHighestLevel = 6;              // beyond 64 cells a bound is too loose
+constexpr int kHighestBound = 6;              // beyond 64 cells a bound is too loose
 constexpr std::uint64_t kTurnWork = 1;        // of rotating one point, in cells read
 constexpr std::int32_t kMostCells = 1 << 20;  // on either side of a grid's origin
 
@@ -45,7 +45,7 @@ WideSearch::WideSearch(std::vector<Eigen::Vector2f> points_in_source_m, double c
 int WideSearch::useful_level(const SearchWindow& window, double cell_m) {
   const std::int32_t half_width = steps_within(std::max(window.half_x_m, window.half_y_m), cell_m);
   int level = 0;
-  while (level < kHighestLevel && (1 << (level + 1)) <= half_width + 1) ++level;
+  while (level < kHighestBound && (1 << (level + 1)) <= half_width + 1) ++level;
   return level;
 }
 

@@ -5,6 +5,7 @@
 namespace slammot::metrics {
 namespace {
 
+using geometry::cross;
 using geometry::Vector2;
 using Polygon = std::vector<Vector2>;
 
@@ -18,8 +19,6 @@ Polygon corners_of(const Box& box) {
     corners.push_back(box.world_from_box * corner);
   return corners;
 }
-
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The part to the left of the line through a and b: Sutherland and Hodgman 1974.
 Polygon clipped(const Polygon& polygon, const Vector2& a, const Vector2& b) {

@@ -8,7 +8,6 @@ namespace slammot::metrics {
 namespace {
 
 constexpr double kWorthOfContinuity = 1000.0;  // exceeds the sum of all similarities of a scan
-constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
 
 struct ObjectHistory {
   std::size_t rows = 0;

@@ -6,15 +6,13 @@
 #include <map>
 #include <utility>
 
+#include "common/metrics/share.hpp"
+
 namespace slammot::metrics {
 namespace {
 
 constexpr double kOnObjectM = 0.3;  // range noise, and motion of the object during the sweep
 constexpr double kOffObjectM = 1.0;
-
-double share(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
 
 struct Candidate {
   std::size_t beam = 0;

@@ -8,8 +8,6 @@
 namespace slammot::metrics {
 namespace {
 
-constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
-
 struct Pair {
   Eigen::Index object = 0;
   Eigen::Index track = 0;

@@ -4,16 +4,13 @@
 #include <cmath>
 
 #include "common/geometry/segment.hpp"
+#include "common/metrics/share.hpp"
 
 namespace slammot::metrics {
 namespace {
 
 using geometry::Pose2;
 using geometry::Vector2;
-
-double share(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
 
 struct CellRange {
   std::ptrdiff_t first_column = 0, last_column = -1, first_row = 0, last_row = -1;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,6 +25,8 @@ struct MotSequence {
   std::size_t object_rows() const;
   std::size_t track_rows() const;
 };
+
+inline constexpr double kRoundOff = std::numeric_limits<double>::epsilon();  ///< Of similarities.
 
 /// Row and column of a pair in one frame.
 struct Match {

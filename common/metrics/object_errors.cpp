@@ -7,24 +7,22 @@
 
 #include <Eigen/Cholesky>
 
+#include "common/metrics/share.hpp"
+
 namespace slammot::metrics {
 namespace {
 
 using geometry::Vector2;
 
-constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;  // errors of closer rows of one object are
-                                                         // correlated
+constexpr std::int64_t kRowIntervalNs = 1'000'000'000;  // errors of closer rows of one object are
+                                                        // correlated
 
-struct Lists {
+struct ErrorLists {
   std::size_t rows = 0;
   std::size_t right_class = 0;
   std::map<std::string, std::size_t> reported_as;
   std::vector<double> centre_m, velocity_mps, heading_rad, length_m, width_m, nees;
 };
-
-double share(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
 
 Vector2 velocity_mps(const TrueObject& object) {
   return geometry::rotation(object.world_from_object.heading_rad) * Vector2(object.speed_mps, 0.0);
@@ -36,7 +34,7 @@ double position_nees(const TrueObject& object, const ReportedTrack& track) {
   return error_m.dot(track.position_covariance_m2->ldlt().solve(error_m));
 }
 
-void add(const TrueObject& object, const ReportedTrack& track, Lists& lists) {
+void add(const TrueObject& object, const ReportedTrack& track, ErrorLists& lists) {
   lists.right_class += is_same_class(object.object_class, track.object_class) ? 1 : 0;
   ++lists.reported_as[track.object_class];
   lists.centre_m.push_back(
@@ -48,7 +46,7 @@ void add(const TrueObject& object, const ReportedTrack& track, Lists& lists) {
   lists.width_m.push_back(std::abs(track.width_m - object.width_m));
 }
 
-ObjectErrors summarize_lists(const Lists& lists) {
+ObjectErrors summarize_lists(const ErrorLists& lists) {
   ObjectErrors errors;
   errors.rows = lists.rows;
   errors.matched_rows = lists.centre_m.size();
@@ -65,7 +63,7 @@ ObjectErrors summarize_lists(const Lists& lists) {
 }
 
 /// What is known of one object over the whole drive.
-struct ObjectHistory {
+struct SeenObject {
   std::int64_t first_counted_ns = 0;
   bool is_detected = false;
   std::int64_t last_nees_ns = std::numeric_limits<std::int64_t>::min() / 2;
@@ -117,22 +115,22 @@ class Collector {
   }
 
   void note_counted(const TrueObject& object, const Scene& scene) {
-    objects_.try_emplace(object.object, ObjectHistory{scene.stamp_ns});
-    for (Lists* lists :
+    objects_.try_emplace(object.object, SeenObject{scene.stamp_ns});
+    for (ErrorLists* lists :
          {&all_, &classes_[object.object_class], &bands_[band_of(object.world_from_object, scene)]})
       ++lists->rows;
   }
 
   void note_matched(const TrueObject& object, const ReportedTrack& track, const Scene& scene) {
-    ObjectHistory& history = objects_.at(object.object);
+    SeenObject& history = objects_.at(object.object);
     if (!history.is_detected)
       delays_s_.push_back(static_cast<double>(scene.stamp_ns - history.first_counted_ns) * 1e-9);
     history.is_detected = true;
     const bool is_sample =
-        track.position_covariance_m2 && scene.stamp_ns - history.last_nees_ns >= kNeesIntervalNs;
+        track.position_covariance_m2 && scene.stamp_ns - history.last_nees_ns >= kRowIntervalNs;
     if (is_sample) history.last_nees_ns = scene.stamp_ns;
-    for (Lists* lists : {&all_, &classes_[object.object_class],
-                         &bands_[band_of(object.world_from_object, scene)]}) {
+    for (ErrorLists* lists : {&all_, &classes_[object.object_class],
+                              &bands_[band_of(object.world_from_object, scene)]}) {
       add(object, track, *lists);
       if (is_sample) lists->nees.push_back(position_nees(object, track));
     }
@@ -140,11 +138,11 @@ class Collector {
 
   const std::vector<double>& starts_m_;
   double range_m_;
-  Lists all_;
-  std::map<std::string, Lists> classes_;
-  std::vector<Lists> bands_;
+  ErrorLists all_;
+  std::map<std::string, ErrorLists> classes_;
+  std::vector<ErrorLists> bands_;
   std::vector<std::size_t> false_rows_;
-  std::unordered_map<std::size_t, ObjectHistory> objects_;
+  std::unordered_map<std::size_t, SeenObject> objects_;
   std::vector<double> delays_s_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "common/metrics/chi_square.hpp"
 #include "common/metrics/coverage.hpp"
+#include "common/metrics/share.hpp"
 
 namespace slammot::metrics {
 namespace {
@@ -22,10 +23,6 @@ constexpr double kFirstSampleS = 0.5;  // after the object was seen last
 constexpr double kSampleIntervalS = 1.0;
 
 using Timeline = std::vector<CoveredMoment>;
-
-double share(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
 
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 

@@ -16,9 +16,9 @@ namespace {
 
 using geometry::Vector2;
 
-constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;  // errors of closer predictions of one
-                                                         // object are correlated
-constexpr std::int64_t kLongestGapNs = 200'000'000;      // between two true places
+constexpr std::int64_t kPredictionIntervalNs = 1'000'000'000;  // errors of closer predictions of
+                                                               // one object are correlated
+constexpr std::int64_t kLongestGapNs = 200'000'000;            // between two true places
 
 struct Place {
   std::int64_t stamp_ns = 0;
@@ -51,22 +51,22 @@ std::optional<Vector2> place_at(const std::vector<Place>& places, std::int64_t s
          share * (after->position_in_world_m - before.position_in_world_m);
 }
 
-struct Lists {
+struct PredictionLists {
   std::vector<double> displacement_m, nees;
   std::unordered_map<std::size_t, std::int64_t> last_nees_ns;  // of each object
 };
 
 void add(const PredictedPlace& predicted, const Vector2& true_position_m, std::size_t object,
-         std::int64_t stamp_ns, Lists& lists) {
+         std::int64_t stamp_ns, PredictionLists& lists) {
   const Vector2 error_m = predicted.position_m - true_position_m;
   lists.displacement_m.push_back(error_m.norm());
   const auto [last, is_first] = lists.last_nees_ns.try_emplace(object, stamp_ns);
-  if (!is_first && stamp_ns - last->second < kNeesIntervalNs) return;
+  if (!is_first && stamp_ns - last->second < kPredictionIntervalNs) return;
   last->second = stamp_ns;
   lists.nees.push_back(error_m.dot(predicted.covariance_m2.ldlt().solve(error_m)));
 }
 
-PredictionErrors summarize_lists(double after_s, const Lists& lists) {
+PredictionErrors summarize_lists(double after_s, const PredictionLists& lists) {
   constexpr double kShare = 0.95;
   const double farthest = chi_square_quantile(kShare, 2.0);
   const auto inside = std::count_if(lists.nees.begin(), lists.nees.end(),
@@ -83,7 +83,7 @@ std::vector<PredictionErrors> prediction_errors(const std::vector<Scene>& scenes
                                                 const std::vector<CountedScene>& counted,
                                                 const std::vector<std::vector<Match>>& matches) {
   const PlacesOfObject places = places_of_objects(scenes);
-  std::map<double, Lists> by_time;
+  std::map<double, PredictionLists> by_time;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     for (const auto& [row, column] : matches[i]) {
       const std::size_t object = scenes[i].objects[counted[i].objects[row]].object;

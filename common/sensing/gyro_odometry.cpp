@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/squared.hpp"
+
 namespace slammot::sensing {
 namespace {
 
@@ -21,7 +23,7 @@ constexpr double kGateSigmas = 3.0;         // beyond it the vehicle turns, or t
 constexpr double kKnownBias_radps = 0.002;  // one sigma
 constexpr double kEnough_rad2ps = 0.1;      // of turns: 0.1 rad/s for 10 s
 
-double squared(double value) { return value * value; }
+using geometry::squared;
 double seconds(std::int64_t duration_ns) { return 1e-9 * static_cast<double>(duration_ns); }
 
 /// The step with another turn: half of what it turns more belongs to the first half of the way.

@@ -6,12 +6,14 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "common/geometry/squared.hpp"
+
 namespace slammot::sensing {
 namespace {
 
 using geometry::Pose2;
 
-double squared(double value) { return value * value; }
+using geometry::squared;
 
 constexpr double kSurprise = 16.3;  // chi-square, 3 degrees of freedom, 99.9 %
 

@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "common/geometry/squared.hpp"
+
 namespace slammot::sensing {
 namespace {
 
@@ -35,7 +37,7 @@ constexpr double kKnownSigma = 0.1;
 constexpr double kMisfitMemory = 0.1;
 constexpr double kMostMisfit = 3.0;
 
-double squared(double value) { return value * value; }
+using geometry::squared;
 
 bool count_nothing(const Pose2& by_wheels) {
   constexpr double kNothing_m = 1e-4;

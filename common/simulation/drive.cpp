@@ -66,30 +66,6 @@ Moment between(const Moment& before, const Moment& after, double fraction) {
   return moment;
 }
 
-/// Periodic events with their own rate, from the drive's first scan on.
-class Beat {
- public:
-  Beat(double rate_hz, double first_s) : rate_hz_(rate_hz), first_s_(first_s) {}
-
-  double due_s() const {
-    return rate_hz_ > 0.0 ? first_s_ + static_cast<double>(count_) / rate_hz_
-                          : std::numeric_limits<double>::infinity();
-  }
-  std::uint32_t count() const { return count_; }
-  void went() { ++count_; }
-
- private:
-  double rate_hz_;
-  double first_s_;
-  std::uint32_t count_ = 0;
-};
-
-struct OneScanner {
-  ScannerConfig config;
-  Random random;
-  Beat beat;
-};
-
 /// The first scanner's noise must not depend on further scanners.
 std::uint64_t seed_of_scanner(std::uint64_t seed, std::size_t index) {
   return seed + 0x10001 * index;
@@ -98,6 +74,30 @@ std::uint64_t seed_of_scanner(std::uint64_t seed, std::size_t index) {
 }  // namespace
 
 struct Drive::World {
+  /// Periodic events with their own rate, from the drive's first scan on.
+  class Beat {
+   public:
+    Beat(double rate_hz, double first_s) : rate_hz_(rate_hz), first_s_(first_s) {}
+
+    double due_s() const {
+      return rate_hz_ > 0.0 ? first_s_ + static_cast<double>(count_) / rate_hz_
+                            : std::numeric_limits<double>::infinity();
+    }
+    std::uint32_t count() const { return count_; }
+    void went() { ++count_; }
+
+   private:
+    double rate_hz_;
+    double first_s_;
+    std::uint32_t count_ = 0;
+  };
+
+  struct OneScanner {
+    ScannerConfig config;
+    Random random;
+    Beat beat;
+  };
+
   explicit World(const ScenarioConfig& config)
       : scenario(config),
         scene(make_scene(config)),

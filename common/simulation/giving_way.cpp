@@ -10,6 +10,7 @@
 namespace slammot::simulation {
 namespace {
 
+using geometry::cross;
 using geometry::Vector2;
 
 constexpr double kHorizon_s = 2.0;       ///< Collisions with discs after this are not avoided yet.
@@ -23,7 +24,6 @@ struct HalfPlane {
   Vector2 normal;
 };
 
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vector2 left_of(const Vector2& direction) { return {-direction.y(), direction.x()}; }
 
 /// Smallest change of the relative velocity that leaves the velocity obstacle, a cone truncated by

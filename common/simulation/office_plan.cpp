@@ -16,12 +16,12 @@ constexpr double kWall_m = 0.15;
 constexpr double kDoor_m = 0.9;
 constexpr double kRecess_m = 0.05;  ///< A closed door lies this far behind the wall's face.
 
-struct Rectangle {
+struct Area {
   Vector2 low;
   Vector2 high;
 };
 
-Rectangle rectangle(const Vector2& a, const Vector2& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
+Area rectangle(const Vector2& a, const Vector2& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
 
 /// Free and solid parts of the floor. All edges lie on multiples of a cell, so walls come out as
 /// whole segments.
@@ -33,11 +33,11 @@ class Floor {
         rows_(static_cast<int>(std::ceil((high.y() - low.y()) / kCell_m))),
         free_(static_cast<std::size_t>(columns_ * rows_), false) {}
 
-  void set(const Rectangle& part, bool free) {
+  void set(const Area& part, bool free) {
     for_cells(part, [&](std::size_t cell) { free_[cell] = free; });
   }
 
-  bool is_solid(const Rectangle& part) const {
+  bool is_solid(const Area& part) const {
     bool solid = true;
     for_cells(part, [&](std::size_t cell) { solid = solid && !free_[cell]; });
     return solid && inside(part);
@@ -74,7 +74,7 @@ class Floor {
   }
 
   template <typename Visit>
-  void for_cells(const Rectangle& part, Visit visit) const {
+  void for_cells(const Area& part, Visit visit) const {
     const auto index = [](double metres) {
       return static_cast<int>(std::lround(metres / kCell_m));
     };
@@ -88,7 +88,7 @@ class Floor {
     }
   }
 
-  bool inside(const Rectangle& part) const {
+  bool inside(const Area& part) const {
     return part.low.x() >= low_.x() && part.low.y() >= low_.y() &&
            part.high.x() <= at(columns_, rows_).x() && part.high.y() <= at(columns_, rows_).y();
   }
@@ -145,7 +145,7 @@ class OfficeBuilder {
       corridors_.push_back({{x_m, 0.0}, {x_m, config_.depth_m}});
   }
 
-  Rectangle corridor_area(const Corridor& corridor) const {
+  Area corridor_area(const Corridor& corridor) const {
     const double half_m = 0.5 * config_.corridor_m;
     return {corridor.from - Vector2{half_m, half_m}, corridor.to + Vector2{half_m, half_m}};
   }
@@ -167,7 +167,7 @@ class OfficeBuilder {
     const double face_m = 0.5 * config_.corridor_m;
     for (double depth_m = 5.5; depth_m > 2.4; depth_m -= 0.5) {
       const Vector2 near = start_in_world + (face_m + kWall_m) * outward;
-      const Rectangle room = rectangle(near, near + width_m * along + depth_m * outward);
+      const Area room = rectangle(near, near + width_m * along + depth_m * outward);
       const Vector2 wall{kWall_m, kWall_m};
       if (!floor_.is_solid({room.low - wall, room.high + wall})) continue;
       if (!add_door(start_in_world + random_.uniform(0.4, width_m - 1.4) * along, along, outward))
@@ -193,7 +193,7 @@ class OfficeBuilder {
   }
 
   /// Desks and cupboards along the walls, a table leg or two in the middle.
-  void furnish_room(const Rectangle& room) {
+  void furnish_room(const Area& room) {
     const Vector2 size = room.high - room.low;
     for (double x_m = 0.3; x_m < size.x() - 1.8; x_m += 2.0) {
       if (random_.chance(config_.furniture_share * 0.5))

@@ -7,7 +7,6 @@ namespace slammot::simulation {
 namespace {
 
 using geometry::Vector2;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Box {
   Vector2 low{kInfinity, kInfinity};

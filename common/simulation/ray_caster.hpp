@@ -8,9 +8,11 @@
 
 namespace slammot::simulation {
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// First hit of a ray; range_m is infinite without a hit.
 struct Hit {
-  double range_m = std::numeric_limits<double>::infinity();
+  double range_m = kInfinity;
   Material material = Material::wall;
 };
 

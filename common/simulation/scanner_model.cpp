@@ -12,7 +12,6 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSplit_m = 0.4;  ///< Rays of a spot with a larger range difference are on two
                                   ///< surfaces.
 constexpr double kGroundDropOut = 0.3;  ///< The beam meets the road at grazing incidence.

@@ -6,10 +6,9 @@
 namespace slammot::simulation {
 namespace {
 
+using geometry::cross;
 using geometry::Vector2;
 constexpr double kMiss = std::numeric_limits<double>::infinity();
-
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 

@@ -17,7 +17,7 @@ constexpr double kPatience_s = 3.0;
 constexpr double kSidestep_mps = 0.6;
 constexpr double kArrived_m = 0.4;
 constexpr double kTurnRate_radps = 2.5;
-constexpr double kAcceleration_mps2 = 1.2;
+constexpr double kWalkingAcceleration_mps2 = 1.2;
 
 /// Pavement corners of a junction, counter-clockwise from the north-east.
 constexpr int kCorners = 4;
@@ -172,7 +172,7 @@ void Walkers::advance(Group& group, double dt_s, const StreetView& street) {
   // Pedestrians slow down while they turn, so that they do not circle around their goal.
   const double facing = std::max(0.1, std::cos(wanted_turn_rad));
   const double wanted_mps = stands ? 0.0 : group.walking_speed_mps * facing;
-  const double change_mps = kAcceleration_mps2 * dt_s;
+  const double change_mps = kWalkingAcceleration_mps2 * dt_s;
   group.speed_mps += std::clamp(wanted_mps - group.speed_mps, -2.0 * change_mps, change_mps);
   const double step_m = group.speed_mps * dt_s;
   group.position_in_world +=

@@ -8,7 +8,7 @@ namespace slammot::traffic {
 namespace {
 
 constexpr double kLeastLengthM = 4.0;  // of a line
-constexpr double kPieceM = 25.0;
+constexpr double kPieceOfLineM = 25.0;
 
 double length_m(std::span<const RidgePoint> line) {
   double sum_m = 0.0;
@@ -38,7 +38,7 @@ Way way_of(Mover mover, int line, std::span<const RidgePoint> piece) {
 /// Cuts the line into pieces of about equal length; neighbours share a point.
 void append_pieces(Mover mover, int line, std::span<const RidgePoint> points,
                    std::vector<Way>& ways) {
-  const auto pieces = static_cast<std::size_t>(length_m(points) / kPieceM) + 1;
+  const auto pieces = static_cast<std::size_t>(length_m(points) / kPieceOfLineM) + 1;
   const std::size_t steps = points.size() - 1;
   for (std::size_t i = 0; i < pieces; ++i) {
     const std::size_t from = i * steps / pieces;

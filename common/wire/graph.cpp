@@ -11,7 +11,7 @@ namespace slammot::wire {
 namespace {
 
 // A correction overtaken by newer ones never becomes complete.
-constexpr std::size_t kMostIncomplete = 4;
+constexpr std::size_t kMostIncompleteGraphs = 4;
 
 static_assert(static_cast<int>(flow::ConstraintKind::kOdometric) ==
               slammot_CONSTRAINT_KIND_ODOMETRIC);
@@ -162,7 +162,7 @@ GraphCorrectionAssembler::Partial& GraphCorrectionAssembler::partial_of(
     // ones.
     partial_.erase(known);
   }
-  if (partial_.size() == kMostIncomplete) partial_.erase(partial_.begin());
+  if (partial_.size() == kMostIncompleteGraphs) partial_.erase(partial_.begin());
   return partial_[part.sequence_number] = Partial{
              {part.map_id},
              map_from_odom,

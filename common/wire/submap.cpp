@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kMostSurfelsOfTile = 4608;
 // Limits the memory of incomplete submaps; several times the submaps of a day's drive.
-constexpr std::size_t kMostIncomplete = 4096;
+constexpr std::size_t kMostIncompleteSubmaps = 4096;
 
 std::uint32_t divide_up(std::uint32_t dividend, std::uint32_t divisor) {
   return (dividend + divisor - 1) / divisor;
@@ -342,7 +342,7 @@ SubmapAssembler::Partial& SubmapAssembler::partial_of(const slammot_SubmapTile& 
     partial_.erase(known);
     ++counters_.replaced_submaps;
   }
-  if (partial_.size() == kMostIncomplete) partial_.erase(partial_.begin());
+  if (partial_.size() == kMostIncompleteSubmaps) partial_.erase(partial_.begin());
   const std::uint32_t tiles = tile.header.tile_count;
   Partial partial{tile.header, std::vector<bool>(tiles, false), tiles,
                   empty_submap(submap_id, tile.header)};

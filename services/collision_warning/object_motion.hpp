@@ -8,6 +8,9 @@
 
 namespace slammot::collision_warning {
 
+/// A turn straightens out with this time constant: bends and lane changes end.
+inline constexpr double kTurnS = 3.0;
+
 /// Motion of an object along its course at a stamp.
 struct CourseState {
   double course_rad = 0.0;  ///< Direction of the motion in odom.

@@ -14,9 +14,6 @@ using geometry::Pose2;
 
 /// Below it a curvature is that of noise.
 constexpr double kLeastTurningSpeedMps = 1.0;
-/// A turn straightens out with this time constant: bends and lane changes end.
-constexpr double kTurnS = 3.0;
-
 /// A course turns into the direction of the road with this time constant, that of a lane change,
 constexpr double kRoadS = 1.2;
 /// from up to this angle, in either sense of the road;

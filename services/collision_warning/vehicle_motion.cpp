@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/filters/kalman.hpp"
+#include "common/geometry/squared.hpp"
 
 namespace slammot::collision_warning {
 namespace {
@@ -18,7 +19,7 @@ constexpr double kFirstSpeedSigmaMps = 20.0;  // of any road vehicle
 constexpr double kFirstAccelerationSigmaMps2 = 2.0;
 constexpr double kFirstYawRateSigmaRadps = 0.5;
 
-double square(double value) { return value * value; }
+using geometry::squared;
 
 /// White jerk, integrated over the step (Bar-Shalom, Li and Kirubarajan 2001, section 6.2.3).
 filters::Gaussian<3> after(const filters::Gaussian<3>& state, double dt_s) {
@@ -46,7 +47,7 @@ template <int N>
 filters::Gaussian<N> measured(const filters::Gaussian<N>& state, double value, double sigma) {
   const Eigen::Matrix<double, 1, 1> z(value);
   const Eigen::Matrix<double, 1, N> H = Eigen::Matrix<double, 1, N>::Unit(0);
-  const Eigen::Matrix<double, 1, 1> R(square(sigma));
+  const Eigen::Matrix<double, 1, 1> R(squared(sigma));
   return filters::kalman_update<N, 1>(state, z, H, R).posterior;
 }
 
@@ -77,10 +78,10 @@ void VehicleMotion::start(std::int64_t stamp_ns, const Pose2& odom_from_base) {
   odom_from_base_ = odom_from_base;
   travelled_m_ = turned_rad_ = 0.0;
   along_ = {};
-  along_.covariance.diagonal() << square(kPositionSigmaM), square(kFirstSpeedSigmaMps),
-      square(kFirstAccelerationSigmaMps2);
+  along_.covariance.diagonal() << squared(kPositionSigmaM), squared(kFirstSpeedSigmaMps),
+      squared(kFirstAccelerationSigmaMps2);
   turn_ = {};
-  turn_.covariance.diagonal() << square(kHeadingSigmaRad), square(kFirstYawRateSigmaRadps);
+  turn_.covariance.diagonal() << squared(kHeadingSigmaRad), squared(kFirstYawRateSigmaRadps);
 }
 
 void VehicleMotion::follow(double dt_s, const Pose2& odom_from_base) {

@@ -7,10 +7,6 @@
 namespace slammot::evaluator {
 namespace {
 
-std::string attribute(const char* name, double value) {
-  return std::string(" ") + name + "=\"" + svg_number(value) + "\"";
-}
-
 std::string ink_of(const char* use, const Ink& ink) {
   std::string text =
       files::text(" %s=\"#%02x%02x%02x\"", use, ink.colour[0], ink.colour[1], ink.colour[2]);

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 constexpr double kTurn_rad = std::numbers::pi / 7.0;       // of the view, about the vertical
 constexpr double kElevation_rad = std::numbers::pi / 4.0;  // of the viewer above the horizon
 constexpr double kMargin = 12.0;                           // [pixels]
-constexpr double kOpacity = 0.9;
+constexpr double kFaceOpacity = 0.9;
 
 /// Right [m], up [m] in the picture, and away from the viewer [m].
 Vector3d in_view(const Vector3d& point_m) {
@@ -105,7 +105,7 @@ Drawing draw_model(const files::PlyModel& model, const metrics::Trajectory& way,
   }
   drawing.marks.emplace_back(std::move(line));
   for (const Face& face : faces) {
-    AreaMark area{{}, {face.colour, kOpacity}};
+    AreaMark area{{}, {face.colour, kFaceOpacity}};
     for (const Vector3d& corner : face.corners) area.points.push_back(place(corner));
     drawing.marks.emplace_back(std::move(area));
   }

@@ -14,7 +14,7 @@ namespace {
 using files::Error;
 using std::filesystem::path;
 
-constexpr std::size_t kMostBeams = 8192;
+constexpr std::size_t kMostModelBeams = 8192;
 
 std::optional<long> number(std::string_view text) {
   long value = 0;
@@ -50,7 +50,7 @@ files::Result<HitsByScanner> read_hits_of_movers(const path& prefix) {
         const auto stamp = numbers(fields.first(1));
         if (!stamp) return "the timestamp is not a number";
         HitsOfMovers beams;
-        RowFault malformed = parse_hit_runs(fields[2], kMostBeams, [&](const HitRun& run) {
+        RowFault malformed = parse_hit_runs(fields[2], kMostModelBeams, [&](const HitRun& run) {
           const auto hit = number(run.hit);  // an object's id is above 0
           if (hit) beams.insert(beams.end(), run.beams, *hit > 0 ? 1 : 0);
           return hit.has_value();

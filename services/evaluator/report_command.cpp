@@ -27,7 +27,7 @@ struct ReportOptions {
   std::vector<std::uint32_t> tracks;
 };
 
-std::string name_of(const path& folder) {
+std::string title_of(const path& folder) {
   const path whole = std::filesystem::absolute(folder).lexically_normal();  // Resolves "." to a
                                                                             // name.
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
@@ -45,7 +45,7 @@ int write_report(const ReportOptions& options) {
   const auto result = read_result(comparison.result);
   if (!result) return files::fail(result.error().message);
   ReportSource source;
-  source.title = "slammot: " + name_of(comparison.result);
+  source.title = "slammot: " + title_of(comparison.result);
   source.result = &*result;
   source.track_ids = options.tracks;
   std::optional<files::Result<Truth>> truth;
@@ -65,7 +65,7 @@ int write_report(const ReportOptions& options) {
 
 /// "a" and "b", or "x/a" and "y/a" where the folders have the same name.
 std::pair<std::string, std::string> names_of(const path& a, const path& b) {
-  if (name_of(a) != name_of(b)) return {name_of(a), name_of(b)};
+  if (title_of(a) != title_of(b)) return {title_of(a), title_of(b)};
   return {a.string(), b.string()};
 }
 
@@ -98,7 +98,7 @@ std::optional<files::Error> write_report_of(const files::RunRecord& record, cons
   const auto result = result_of(record, folder);
   if (!result) return result.error();
   ReportSource source;
-  source.title = "slammot: " + name_of(folder);
+  source.title = "slammot: " + title_of(folder);
   source.result = &*result;
   return files::write_file_atomically(folder / kReportFile, to_html(source));
 }

@@ -10,10 +10,6 @@
 namespace slammot::evaluator {
 namespace {
 
-std::string attribute(const char* name, double value) {
-  return std::string(" ") + name + "=\"" + svg_number(value) + "\"";
-}
-
 std::string text_at(double x, double y, const char* anchor, std::string_view text,
                     const std::string& extra = "") {
   return "<text" + attribute("x", x) + attribute("y", y) + " text-anchor=\"" + anchor + "\"" +
@@ -82,6 +78,10 @@ std::string svg_number(double value) {
       std::to_chars(digits.data(), digits.data() + digits.size(),
                     std::round(value * 1e4) / 1e4 + 0.0, std::chars_format::general, 8);
   return {digits.data(), end.ptr};
+}
+
+std::string attribute(const char* name, double value) {
+  return std::string(" ") + name + "=\"" + svg_number(value) + "\"";
 }
 
 std::string escaped(std::string_view text) {

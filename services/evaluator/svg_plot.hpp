@@ -70,4 +70,7 @@ std::string escaped(std::string_view text);
 /// A number with as few characters as SVG needs.
 std::string svg_number(double value);
 
+/// Of an element, with the space before it.
+std::string attribute(const char* name, double value);
+
 }  // namespace slammot::evaluator

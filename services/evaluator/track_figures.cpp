@@ -11,21 +11,21 @@
 namespace slammot::evaluator {
 namespace {
 
-constexpr double kGapS = 0.5;  // Longer gaps between reports interrupt the line.
+constexpr double kReportGapS = 0.5;  // Longer gaps between reports interrupt the line.
 const std::array<const char*, 6> kModeColours = {"#1f5fa8", "#d9480f", "#2e8b57",
                                                  "#6f42c1", "#e0a100", "#7a7a7a"};
 
-using Rows = std::vector<const ResultTrack*>;
+using TrackRows = std::vector<const ResultTrack*>;
 
-std::map<std::uint32_t, Rows> rows_by_track(const RunResult& result) {
-  std::map<std::uint32_t, Rows> rows;
+std::map<std::uint32_t, TrackRows> rows_by_track(const RunResult& result) {
+  std::map<std::uint32_t, TrackRows> rows;
   for (const TracksAt& at : result.tracks) {
     for (const ResultTrack& track : at.tracks) rows[track.track_id].push_back(&track);
   }
   return rows;
 }
 
-std::size_t turns_of_motion(const Rows& rows) {
+std::size_t turns_of_motion(const TrackRows& rows) {
   std::size_t turns = 0;
   for (std::size_t i = 1; i < rows.size(); ++i)
     turns += rows[i]->is_moving != rows[i - 1]->is_moving ? 1 : 0;
@@ -57,7 +57,7 @@ std::optional<std::size_t> object_of(const Evaluation& evaluation, std::uint32_t
 }
 
 struct TrueCourse {
-  Series speed{"true speed", "#111", {}, kGapS, true};
+  Series speed{"true speed", "#111", {}, kReportGapS, true};
   std::string object_class;
 };
 
@@ -76,14 +76,14 @@ TrueCourse true_course(const Evaluation& evaluation, std::size_t object, std::in
   return course;
 }
 
-std::vector<Span> standing(const Rows& rows, std::int64_t zero_ns) {
+std::vector<Span> standing(const TrackRows& rows, std::int64_t zero_ns) {
   std::vector<Span> spans;
   const auto at_s = [&](const ResultTrack* row) {
     return static_cast<double>(row->stamp_ns - zero_ns) * 1e-9;
   };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i]->is_moving) continue;
-    const double to_s = i + 1 < rows.size() && at_s(rows[i + 1]) - at_s(rows[i]) < kGapS
+    const double to_s = i + 1 < rows.size() && at_s(rows[i + 1]) - at_s(rows[i]) < kReportGapS
                             ? at_s(rows[i + 1])
                             : at_s(rows[i]);
     if (!spans.empty() && at_s(rows[i]) <= spans.back().to + 1e-9) spans.back().to = to_s;
@@ -92,9 +92,9 @@ std::vector<Span> standing(const Rows& rows, std::int64_t zero_ns) {
   return spans;
 }
 
-std::string speed_figure(const Rows& rows, const std::optional<TrueCourse>& truth,
+std::string speed_figure(const TrackRows& rows, const std::optional<TrueCourse>& truth,
                          const std::vector<Span>& shaded, std::int64_t zero_ns) {
-  Series speed{"estimated speed", "#1f5fa8", {}, kGapS};
+  Series speed{"estimated speed", "#1f5fa8", {}, kReportGapS};
   for (const ResultTrack* row : rows)
     speed.points.push_back(
         {static_cast<double>(row->stamp_ns - zero_ns) * 1e-9, row->velocity_in_map_mps.norm()});
@@ -103,7 +103,8 @@ std::string speed_figure(const Rows& rows, const std::optional<TrueCourse>& trut
   return to_svg(plot);
 }
 
-std::string mode_figure(const Rows& rows, const std::vector<Span>& shaded, std::int64_t zero_ns) {
+std::string mode_figure(const TrackRows& rows, const std::vector<Span>& shaded,
+                        std::int64_t zero_ns) {
   const std::size_t modes = rows.front()->mode_probability.size();
   if (modes == 0) return {};
   const std::array<const char*, 3> names = {"constant velocity", "constant acceleration",
@@ -113,7 +114,7 @@ std::string mode_figure(const Rows& rows, const std::vector<Span>& shaded, std::
     Series series{mode < names.size() ? names[mode] : "model " + std::to_string(mode),
                   kModeColours[mode % kModeColours.size()],
                   {},
-                  kGapS};
+                  kReportGapS};
     bool is_used = false;
     for (const ResultTrack* row : rows) {
       if (row->mode_probability.size() != modes) continue;
@@ -126,7 +127,7 @@ std::string mode_figure(const Rows& rows, const std::vector<Span>& shaded, std::
   return plot.series.empty() ? "" : to_svg(plot);
 }
 
-std::string one_track(const ReportSource& source, std::uint32_t track_id, const Rows& rows) {
+std::string one_track(const ReportSource& source, std::uint32_t track_id, const TrackRows& rows) {
   const std::int64_t zero_ns = source.result->online.front().stamp_ns;
   std::optional<TrueCourse> truth;
   if (source.evaluation) {

@@ -11,7 +11,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uint8_t kMessageData = 1;
-constexpr std::size_t kMostSubscriptions = 256;  ///< In one message.
+constexpr std::size_t kMostAtOnce = 256;  ///< In one message.
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
@@ -28,8 +28,7 @@ std::optional<std::uint32_t> number_in(const Json& json) {
 
 const Json* list_in(const Json& message, const char* name) {
   const auto found = message.find(name);
-  if (found == message.end() || !found->is_array() || found->size() > kMostSubscriptions)
-    return nullptr;
+  if (found == message.end() || !found->is_array() || found->size() > kMostAtOnce) return nullptr;
   return &*found;
 }
 

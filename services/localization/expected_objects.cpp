@@ -6,7 +6,6 @@
 namespace slammot::localization {
 namespace {
 
-constexpr double kNanosecond_s = 1e-9;
 constexpr double kLongestExpectation_s = 1.0;  // tracking that has been silent for longer expects
                                                // nothing any more
 constexpr double kBodyMargin_m = 0.1;          // half a cell: echoes come from the sides themselves
@@ -30,7 +29,7 @@ bool is_surely_moving_vehicle(const flow::TrackedObject& object, std::int64_t st
   const double speed_mps = object.velocity_in_odom_mps.norm();
   const double sigma_mps = std::sqrt(object.covariance.bottomRightCorner<2, 2>().trace());
   return speed_mps >= std::max(kLeastSpeedMps, kSigmas * sigma_mps) &&
-         static_cast<double>(stamp_ns - object.first_seen_ns) * kNanosecond_s >= kLeastKnownS;
+         static_cast<double>(stamp_ns - object.first_seen_ns) * 1e-9 >= kLeastKnownS;
 }
 
 }  // namespace
@@ -42,7 +41,7 @@ void ExpectedObjects::expect(const flow::TrackedObjects& objects) {
 
 const std::vector<grids::Box>& ExpectedObjects::masks_at(std::int64_t stamp_ns) {
   masks_.clear();
-  const double after_s = static_cast<double>(stamp_ns - objects_.stamp_ns) * kNanosecond_s;
+  const double after_s = static_cast<double>(stamp_ns - objects_.stamp_ns) * 1e-9;
   if (after_s > kLongestExpectation_s || !config_.echoes.leave_out_moving) return masks_;
   for (const flow::TrackedObject& object : objects_.objects)
     if (object.confirmed && !object.occluded)

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "common/geometry/squared.hpp"
 #include "common/geometry/uncertain_pose2.hpp"
 
 /// Priors of registrations of one scan to another, and what makes one count.
@@ -19,7 +20,7 @@ inline constexpr double kSame_m = 0.05;      // two registrations that end neare
 inline constexpr double kRivalShare = 0.9;   // another place that fits as well as this share of the
                                              // best: nothing is told
 
-inline double squared(double value) { return value * value; }
+using geometry::squared;
 
 /// What is expected, if it is right.
 inline geometry::UncertainPose2 surely(const geometry::Pose2& pose, double way_m) {

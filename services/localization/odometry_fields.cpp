@@ -12,7 +12,7 @@ using config::Group;
 using config::in_group;
 using config::kPositive;
 
-FieldTable<OdometryConfig> trust_fields() {
+FieldTable<OdometryConfig> trust_in_odometry_fields() {
   using C = OdometryConfig;
   return {
       {"use_odometry", &C::use_odometry,
@@ -48,8 +48,8 @@ config::Field<LocalizerConfig> vehicle_field() {
 
 FieldTable<OdometryConfig> odometry_fields() {
   using C = OdometryConfig;
-  return config::joined<C>(
-      {in_group<C>(Group::odometry, trust_fields()), in_group<C>(Group::log, clock_fields())});
+  return config::joined<C>({in_group<C>(Group::odometry, trust_in_odometry_fields()),
+                            in_group<C>(Group::log, clock_fields())});
 }
 
 FieldTable<sensing::MotionModelConfig> motion_fields() {

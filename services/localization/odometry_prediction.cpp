@@ -11,7 +11,6 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr double kNanosecond_s = 1e-9;
 constexpr double kStandsWithin_m = 1e-4;      // a step: wheels that stand count nothing,
 constexpr double kStandsWithin_radps = 0.01;  // and what a gyro says then is its bias
 constexpr double kStandsAfter_s = 0.5;        // odometry may come less often than scans
@@ -26,7 +25,7 @@ constexpr std::int64_t kLongestLag_ns = 200'000'000;  // a vehicle that accelera
                                                       // longer
 
 std::int64_t to_ns(double duration_s) {
-  return static_cast<std::int64_t>(std::llround(duration_s / kNanosecond_s));
+  return static_cast<std::int64_t>(std::llround(duration_s / 1e-9));
 }
 
 /// With the velocity of the step: another scanner's at the same time says nothing about it.
@@ -118,7 +117,7 @@ std::optional<Pose2> OdometryPrediction::wheel_step(std::int64_t stamp_ns,
   const auto after = odometry_.wheel_from_base_after(stamp_ns, after_ns);
   if (!before || !after) return std::nullopt;
   return sensing::corrected(geometry::inverse(*before) * *after,
-                            static_cast<double>(stamp_ns - state_.last->stamp_ns) * kNanosecond_s,
+                            static_cast<double>(stamp_ns - state_.last->stamp_ns) * 1e-9,
                             state_.belief.factors);
 }
 
@@ -140,8 +139,7 @@ Eigen::Vector3d OdometryPrediction::step_by_stamp_offset(std::int64_t stamp_ns,
 /// Whether the steps by which a change of the velocity is told may hold a jump of the wheels, which
 /// is none.
 bool OdometryPrediction::have_jumped_lately() const {
-  return state_.last->trusted_s <
-         kVelocityOver_s + kNanosecond_s * static_cast<double>(2 * kLongestLag_ns);
+  return state_.last->trusted_s < kVelocityOver_s + 1e-9 * static_cast<double>(2 * kLongestLag_ns);
 }
 
 /// Over long steps, and where samples come late and many at once, nobody knows how fast it was at
@@ -234,7 +232,7 @@ void OdometryPrediction::go_on_without_wheels(Step& step) const {
 Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   Step step;
   step.stamp_ns = stamp_ns;
-  step.duration_s = static_cast<double>(stamp_ns - state_.last->stamp_ns) * kNanosecond_s;
+  step.duration_s = static_cast<double>(stamp_ns - state_.last->stamp_ns) * 1e-9;
   step.is_gap = step.duration_s > config_.odometry.longest_step_s;
   step.wheel_from_base = wheel_from_base_at(stamp_ns);
   step.odom_from_base_before = state_.estimate.uncertain_pose();

@@ -16,7 +16,7 @@ constexpr double kFoundShare = 0.6;  // Lost, it has found itself again where so
 
 constexpr double kWindowPerScan_m = 2.0;  // the longer it is lost, the wider it looks
 constexpr unsigned kScansBetweenWideSearches = 16;
-constexpr std::size_t kPoses = 4;     // that are looked at
+constexpr std::size_t kPosesLookedAt = 4;  // that are looked at
 constexpr double kRivalRatio = 0.98;  // with another pose that is as good as this it waits for a
                                       // scan that tells
 
@@ -35,7 +35,7 @@ bool are_same(const geometry::Pose2& a, const geometry::Pose2& b) {
 }  // namespace
 
 Relocalization::Relocalization(const LocalizerConfig& config)
-    : config_(config), search_(config, kPoses) {}
+    : config_(config), search_(config, kPosesLookedAt) {}
 
 /// Whichever way it looks now: a room looks much the same from both of its ends, and only all the
 /// answers together tell.

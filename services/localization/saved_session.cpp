@@ -5,8 +5,8 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x7365'7373'696f'6e34;  // "session4": the digit counts the forms of
-                                                        // a session
+constexpr std::uint64_t kSessionMark = 0x7365'7373'696f'6e34;  // "session4": the digit counts the
+                                                               // forms of a session
 constexpr std::uint64_t kMostScanners = 64;
 
 void put_text(std::vector<std::byte>& bytes, const std::string& text) {
@@ -56,7 +56,7 @@ bool is_believable(const flow::LocalizedScan& answer) {
 
 std::vector<std::byte> to_bytes(const SavedSession& session) {
   std::vector<std::byte> bytes;
-  put(bytes, kMark);
+  put(bytes, kSessionMark);
   put(bytes, session.map_id.value);
   put(bytes, session.odom_id.value);
   put(bytes, session.first_submap_id.value);
@@ -84,7 +84,7 @@ std::optional<SavedSession> session_of(std::span<const std::byte> bytes) {
   from.get(session.odom_id.value);
   from.get(session.first_submap_id.value);
   from.get(drives);
-  if (mark != kMark || drives > kMostScanners) return std::nullopt;
+  if (mark != kSessionMark || drives > kMostScanners) return std::nullopt;
   for (std::uint64_t i = 0; i < drives; ++i) {
     const std::string scanner_id = get_text(from);
     from.get(session.drive_by_scanner[scanner_id]);

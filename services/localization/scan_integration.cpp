@@ -22,8 +22,6 @@ struct Patience {
 constexpr Patience kPatience{30, 0.6};
 constexpr Patience kWithoutTracking{4, 0.15};
 
-constexpr double kNanosecond_s = 1e-9;
-
 /// Without anybody's labels: what the map does not explain stays out of it.
 grids::Echo unexplained_out(EndCell end_cell) {
   return end_cell == EndCell::kNoEcho || end_cell == EndCell::kFree ? grids::Echo::kNone
@@ -134,7 +132,7 @@ void ScanIntegration::integrate_first_without_tracking(PoseTrust trust, LocalMap
 IntegrationCounts ScanIntegration::integrate_overdue(std::int64_t now_ns, PoseTrust trust,
                                                      LocalMap& map) {
   const auto is_overdue = [&] {
-    const double waited_s = static_cast<double>(now_ns - pending_.front().stamp_ns) * kNanosecond_s;
+    const double waited_s = static_cast<double>(now_ns - pending_.front().stamp_ns) * 1e-9;
     const Patience& patience = labels_come_ ? kPatience : kWithoutTracking;
     return pending_.size() >= patience.scans || waited_s > patience.time_s;
   };

@@ -13,10 +13,10 @@ using geometry::UncertainPose2;
 matching::PointToLineConfig spaced(matching::PointToLineConfig config, double step_s) {
   constexpr double kDependent_s = 0.1;
   constexpr double kIndependent_s = 0.5;
-  constexpr double kIndependentShare = 0.8;
+  constexpr double kIndependentScanShare = 0.8;
   const double apart =
       std::clamp((step_s - kDependent_s) / (kIndependent_s - kDependent_s), 0.0, 1.0);
-  config.information_share = std::max(config.information_share, kIndependentShare * apart);
+  config.information_share = std::max(config.information_share, kIndependentScanShare * apart);
   config.proven_after_m *= 1.0 - apart;
   return config;
 }

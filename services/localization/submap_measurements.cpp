@@ -10,7 +10,7 @@ namespace {
 using geometry::Pose2;
 
 constexpr std::size_t kMostWaiting = 1024;
-constexpr std::size_t kMostPoses = 256;  // some seconds of scans: receivers report late
+constexpr std::size_t kMostKeptPoses = 256;  // some seconds of scans: receivers report late
 constexpr double kFixSpacing_m = 2.0;
 constexpr double kReadingSpacing_m = 1.0;
 
@@ -22,7 +22,7 @@ void keep_waiting(Measurement measurement, std::deque<Measurement>& waiting) {
 
 }  // namespace
 
-SubmapMeasurements::SubmapMeasurements() { poses_.reserve(2 * kMostPoses); }
+SubmapMeasurements::SubmapMeasurements() { poses_.reserve(2 * kMostKeptPoses); }
 
 void SubmapMeasurements::add(const sensing::GnssFix& fix) {
   const bool is_sound = std::isfinite(fix.position.latitude_deg) &&
@@ -53,7 +53,8 @@ std::optional<Pose2> SubmapMeasurements::pose_at(std::int64_t stamp_ns) const {
 
 void SubmapMeasurements::place(std::int64_t stamp_ns, const Pose2& odom_from_base) {
   if (!is_waited_for(stamp_ns)) return;
-  if (poses_.size() == 2 * kMostPoses) poses_.erase(poses_.begin(), poses_.begin() + kMostPoses);
+  if (poses_.size() == 2 * kMostKeptPoses)
+    poses_.erase(poses_.begin(), poses_.begin() + kMostKeptPoses);
   poses_.push_back({stamp_ns, odom_from_base});
   for (; !waiting_fixes_.empty() && !is_waited_for(waiting_fixes_.front().stamp_ns);
        waiting_fixes_.pop_front())

@@ -11,7 +11,6 @@ namespace {
 using geometry::Matrix3;
 using geometry::UncertainPose2;
 
-constexpr double kSameWithinSquaredSigmas = 11.3;  // Chi-square, 3 degrees of freedom, 99 %.
 constexpr double kClearlyWorse = 2.0;  // Greatest contradicted share of a hypothesis, as a multiple
                                        // of another one.
 constexpr double kNoise_share = 0.01;  // Added to that limit.

@@ -8,6 +8,9 @@
 
 namespace slammot::loop_closing {
 
+inline constexpr double kSameWithinSquaredSigmas = 11.3;  ///< Chi-square, 3 degrees of freedom, 99
+                                                          ///< %.
+
 /// One possible pose of a new submap on an earlier one.
 struct Hypothesis {
   flow::SubmapId from;  ///< The earlier submap.

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "common/graphs/pose_graph.hpp"
+#include "services/loop_closing/hypotheses.hpp"
 
 namespace slammot::loop_closing {
 namespace {
@@ -18,7 +19,6 @@ using geometry::UncertainPose2;
 constexpr double kSamePlaceCells = 5.0;  // Greatest distance of poses of one place, in search
                                          // cells.
 constexpr double kSamePlace_rad = 0.15;  // Greatest difference of headings of one place.
-constexpr double kSameWithinSquaredSigmas = 11.3;  // Chi-square, 3 degrees of freedom, 99 %.
 
 /// Covariance of the relative pose of two submaps of one drive, by a drift model: two correct
 /// hypotheses differ by this drift.

@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 constexpr auto kStartupTime = 2s;  ///< A service that exits with a fault sooner has failed to
                                    ///< start.
 constexpr int kMaxFailedStarts = 3;
-constexpr auto kPatience = 2s;
+constexpr auto kPatienceForEnd = 2s;
 
 std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
   std::vector<char*> pointers;
@@ -155,7 +155,7 @@ void ServiceProcesses::end(const std::function<bool(const Running&)>& is_selecte
   for (const Running& running : all_) {
     if (is_selected(running) && running.process != 0) kill(running.process, SIGTERM);
   }
-  const auto give_up_at = std::chrono::steady_clock::now() + kPatience;
+  const auto give_up_at = std::chrono::steady_clock::now() + kPatienceForEnd;
   while (!std::ranges::all_of(all_, has_ended) && std::chrono::steady_clock::now() < give_up_at)
     std::this_thread::sleep_for(10ms);
   for (Running& running : all_) {

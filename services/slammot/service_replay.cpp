@@ -14,7 +14,7 @@ using namespace std::chrono_literals;
 /// Keys and stamp are among the first bytes of a sample; the rest need not be read for them.
 constexpr std::size_t kHeadBytes = 256;
 /// loop_closing publishes what it found late after three status reports, 1 s each.
-constexpr auto kPatience = 6s;
+constexpr auto kPatienceForReply = 6s;
 constexpr auto kPatienceAfterSilence = 300ms;
 constexpr int kMostSilences = 20;
 /// All endpoints of the service are announced together, those of this process before it started.
@@ -136,8 +136,9 @@ void ServiceReplay::take(Output& output) {
 }
 
 bool ServiceReplay::await(Output& output, const Identity& identity) {
-  const auto end = std::chrono::steady_clock::now() +
-                   (silences_ == 0 ? std::chrono::nanoseconds(kPatience) : kPatienceAfterSilence);
+  const auto end =
+      std::chrono::steady_clock::now() +
+      (silences_ == 0 ? std::chrono::nanoseconds(kPatienceForReply) : kPatienceAfterSilence);
   while (output.published[identity].empty()) {
     const auto now = std::chrono::steady_clock::now();
     if (now >= end) return false;

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/squared.hpp"
+
 namespace slammot::tracking {
 namespace {
 
 constexpr int kFewestOnFlank = 3;  ///< Echoes on a flank that tell where it ends.
 
-double squared(double value) { return value * value; }
+using geometry::squared;
 
 /// The laser lies beyond the low side. The high end is the end of the flank, if the flank is
 /// visible.

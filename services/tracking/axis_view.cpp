@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/squared.hpp"
 #include "services/tracking/size_evidence.hpp"
 
 namespace slammot::tracking {
@@ -10,7 +11,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-double squared(double value) { return value * value; }
+using geometry::squared;
 
 /// Part of the corner depth that beams grazing the side at an angle of this sine do not meet. A cut
 /// at 45 degrees is hidden up to that angle; of a quarter circle r (1 - sine) is, with r = 1.7

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "common/geometry/squared.hpp"
+
 namespace slammot::tracking {
 namespace {
 
 using Eigen::Vector2d;
 
-double squared(double value) { return value * value; }
+using geometry::squared;
 
 double spacing_of(const AxisView& view, const NearSide& side) {
   return side.inwards > 0.0 ? view.low.spacing_m : view.high.spacing_m;

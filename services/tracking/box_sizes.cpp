@@ -5,12 +5,13 @@
 #include <numbers>
 #include <tuple>
 
+#include "common/geometry/squared.hpp"
 #include "services/tracking/box.hpp"
 
 namespace slammot::tracking {
 namespace {
 
-double squared(double value) { return value * value; }
+using geometry::squared;
 
 /// Posterior sizes under one kind of road user, and the log-likelihood of the evidence.
 struct KindFit {

@@ -9,17 +9,17 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr std::size_t kFewestEchoes = 4;
+constexpr std::size_t kFewestEchoesOfFace = 4;
 constexpr double kStraightM = 0.06;  ///< One sigma of echoes of one side about a line, beside their
                                      ///< noise.
 constexpr double kNarrowestM = 0.8;  ///< Of a vehicle's front, which may be partly hidden.
-constexpr double kWidestM = 2.8;
+constexpr double kWidestFaceM = 2.8;
 constexpr double kMiddleShare = 0.8;  ///< Of the side: at its ends the flanks begin.
 constexpr double kFarthestM = 1.2;    ///< Largest displacement of a slow object.
 constexpr double kLeastShiftM = 0.08;
 constexpr double kLeastShiftPerM = 0.004;  ///< Of range: errors of the heading, and the change of
                                            ///< view of a distant side.
-constexpr double kSigmas = 4.0;
+constexpr double kShiftSigmas = 4.0;
 
 /// A straight line through echoes.
 struct Face {
@@ -128,7 +128,8 @@ std::optional<double> off_then_m(const Face& face, const PolarView& now, const E
     if (then.owners[beam].is_confirmed) return std::nullopt;
     off.add(off_m);
   }
-  if (off.count < static_cast<double>(kFewestEchoes) || off.count < static_cast<double>(through))
+  if (off.count < static_cast<double>(kFewestEchoesOfFace) ||
+      off.count < static_cast<double>(through))
     return std::nullopt;
   if (off.sigma() > std::hypot(kStraightM * size_scale, echo_sigma_m)) return std::nullopt;
   return off.mean();
@@ -183,7 +184,7 @@ bool is_surely_too_narrow(std::span<const std::uint16_t> side, const PolarView& 
 Vector2d shift_of(const Face& face, std::size_t echoes, const PolarView& now, const Asked& asked) {
   const TrackingConfig& config = asked.config;
   if (2.0 * face.half_width_m < kNarrowestM * config.extent.size_scale ||
-      2.0 * face.half_width_m > kWidestM * config.extent.size_scale)
+      2.0 * face.half_width_m > kWidestFaceM * config.extent.size_scale)
     return Vector2d::Zero();
   const double range_m = (face.middle_m - now.laser_in_odom_m()).norm();
   const double echo_m = echo_sigma_m(range_m, config);
@@ -192,7 +193,7 @@ Vector2d shift_of(const Face& face, std::size_t echoes, const PolarView& now, co
   const double sigma_m =
       std::hypot(asked.pose_sigma_m(), echo_m * std::sqrt(2.0 / static_cast<double>(echoes)));
   const double least_m = std::max(
-      kLeastShiftM * config.extent.size_scale + kLeastShiftPerM * range_m, kSigmas * sigma_m);
+      kLeastShiftM * config.extent.size_scale + kLeastShiftPerM * range_m, kShiftSigmas * sigma_m);
   return -agreed_off_m(face, now, asked.earlier, {echo_m, least_m, config.extent.size_scale}) *
          face.normal;
 }
@@ -204,10 +205,10 @@ std::optional<FaceShift> face_shift(std::span<const std::uint16_t> segment_beams
                                     std::span<const EarlierScan* const> earlier,
                                     const std::function<double()>& pose_sigma_m,
                                     const TrackingConfig& config) {
-  if (segment_beams.size() < kFewestEchoes) return std::nullopt;
+  if (segment_beams.size() < kFewestEchoesOfFace) return std::nullopt;
   std::optional<FaceShift> best;
   for (const auto side : sides_of(segment_beams, now, config)) {
-    if (side.size() < kFewestEchoes || is_surely_too_narrow(side, now, config)) continue;
+    if (side.size() < kFewestEchoesOfFace || is_surely_too_narrow(side, now, config)) continue;
     const Vector2d shift_m =
         shift_of(face_through(side, {}, now), side.size(), now, {earlier, pose_sigma_m, config});
     if (shift_m.isZero() || (best && best->shift_m.norm() > shift_m.norm())) continue;
@@ -222,13 +223,13 @@ std::optional<FaceShift> face_shift_with(std::span<const std::uint16_t> other_be
                                          std::span<const EarlierScan* const> earlier,
                                          const std::function<double()>& pose_sigma_m,
                                          const TrackingConfig& config) {
-  if (std::min(segment_beams.size(), other_beams.size()) < kFewestEchoes) return std::nullopt;
+  if (std::min(segment_beams.size(), other_beams.size()) < kFewestEchoesOfFace) return std::nullopt;
   const auto first = segment_beams.front() < other_beams.front() ? segment_beams : other_beams;
   const auto last = segment_beams.front() < other_beams.front() ? other_beams : segment_beams;
   if (first.back() >= last.front()) return std::nullopt;
   const double width_m =
       (now.point_in_odom_m(last.back()) - now.point_in_odom_m(first.front())).norm();
-  if (width_m > kWidestM * config.extent.size_scale) return std::nullopt;
+  if (width_m > kWidestFaceM * config.extent.size_scale) return std::nullopt;
   Face face = face_through(first, last, now);
   const double from_m = face.along.dot(now.point_in_odom_m(first.back()) - face.middle_m);
   const double to_m = face.along.dot(now.point_in_odom_m(last.front()) - face.middle_m);

@@ -8,18 +8,18 @@ namespace {
 using Eigen::Matrix2d;
 using flow::TrackId;
 
-constexpr double kAlikeForS = 1.0;        ///< Before two tracks belong together.
-constexpr double kReachM = 18.0;          ///< Between neighbours in a queue.
-constexpr double kMostApartMps = 1.0;     ///< Largest difference of their velocities,
-constexpr double kMostApartShare = 0.15;  ///< plus this share of them.
-constexpr double kSlowestMps = 1.0;       ///< Of a member.
+constexpr double kAlikeForS = 1.0;         ///< Before two tracks belong together.
+constexpr double kReachM = 18.0;           ///< Between neighbours in a queue.
+constexpr double kMostApartMps = 1.0;      ///< Largest difference of their velocities,
+constexpr double kMostApartShare = 0.15;   ///< plus this share of them.
+constexpr double kSlowestMemberMps = 1.0;  ///< Of a member.
 constexpr double kSharedShare = 0.9;  ///< Of the process noise, common to the members: they brake
                                       ///< for the same light.
 constexpr std::size_t kMostMembers = 6;
 
 bool may_be_member(const Track& track, const TrackingConfig& config) {
   return track.existence.confirmed && track.extent.box() != nullptr &&
-         track.velocity_mps().norm() > kSlowestMps * config.extent.size_scale;
+         track.velocity_mps().norm() > kSlowestMemberMps * config.extent.size_scale;
 }
 
 bool go_alike(const Track& a, const Track& b, const TrackingConfig& config) {

@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 using flow::PointLabel;
 using flow::Segment;
 
-constexpr std::size_t kFewestEchoes = 2;  ///< A single echo has no extent.
+constexpr std::size_t kFewestFirstEchoes = 2;  ///< A single echo has no extent.
 
 bool is_in_confirmed_vehicle(const Segment& segment, const std::vector<Track>& tracks,
                              const Associations& associations, const TrackingConfig& config) {
@@ -55,7 +55,7 @@ bool may_initiate(std::size_t index, const std::vector<Track>& tracks,
   if (!associations.is_unassigned(index)) return false;
   const Segment& segment = context.scan().segments[index];
   const SegmentComparison& of_segment = context.comparison.segment(index);
-  if (segment.beams.size() < kFewestEchoes) return false;
+  if (segment.beams.size() < kFewestFirstEchoes) return false;
   if (is_in_confirmed_vehicle(segment, tracks, associations, context.config)) return false;
   if (!of_segment.face_shift_m.isZero()) return true;
   if (segment.label == PointLabel::kMoving) return !of_segment.stood_before;

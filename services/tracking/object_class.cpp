@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/geometry/squared.hpp"
+
 namespace slammot::tracking {
 namespace {
 
 using flow::ClassProbabilities;
 
-constexpr std::size_t kPedestrian = entry_of(flow::ObjectClass::kPedestrian);
+constexpr std::size_t kPedestrianEntry = entry_of(flow::ObjectClass::kPedestrian);
 constexpr std::size_t kFirstVehicle = entry_of(flow::ObjectClass::kCar);
 
 constexpr double kSpeedMemoryS = 6.0;     ///< For which a speed counts.
@@ -43,7 +45,7 @@ constexpr std::array<double, 4> kDensityOfPiece = {0.03, 0.05, 0.2, 0.2};
 /// Several pedestrians side by side or one behind the other, as large as a box.
 const KindOfBody kCompany{Kind::kBicycle, 0.08, 1.3, 0.35, 0.6, 0.2};
 
-double squared(double value) { return value * value; }
+using geometry::squared;
 
 double normal_density(double offset, double sigma) {
   return std::exp(-0.5 * squared(offset / sigma)) / (sigma * std::sqrt(2.0 * std::numbers::pi));
@@ -66,7 +68,7 @@ ClassProbabilities log_fit_of_box(const Box& box, const TrackingConfig& config) 
   ClassProbabilities fit;
   fit.fill(-1e300);
   const EvidenceByKind evidence = evidence_by_kind(box, config);
-  fit[kPedestrian] = std::max(
+  fit[kPedestrianEntry] = std::max(
       log_fit(kCompany, box.evidence.length, box.evidence.width, config.extent.size_scale),
       log_fit(kCompany, box.evidence.width, box.evidence.length, config.extent.size_scale));
   for (const KindOfBody& kind : box.road_users->kinds) {
@@ -83,9 +85,9 @@ ClassProbabilities log_fit_of_blob(const Blob& blob, const TrackingConfig& confi
   const auto& density = blob.was_seen_whole ? kDensityOfWhole : kDensityOfPiece;
   ClassProbabilities log_fit;
   for (std::size_t i = 0; i < log_fit.size(); ++i) {
-    const double of_extent =
-        i == kPedestrian ? normal_density(extent_m - kPedestrianExtentM, kPedestrianExtentSigmaM)
-                         : 1.0;
+    const double of_extent = i == kPedestrianEntry ? normal_density(extent_m - kPedestrianExtentM,
+                                                                    kPedestrianExtentSigmaM)
+                                                   : 1.0;
     log_fit[i] = std::log(kShares[i] * density[i] * of_extent + 1e-12);
   }
   return log_fit;

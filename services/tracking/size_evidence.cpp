@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/squared.hpp"
+
 namespace slammot::tracking {
 namespace {
 
-double squared(double value) { return value * value; }
+using geometry::squared;
 
 /// Product of the prior and the measurement from edge to edge, without the lower bound.
 Size size_from_whole(double mean_m, double sigma_m, const SizeEvidence& evidence) {
