@@ -40,7 +40,7 @@ slammot_precompile(core_headers LINK Eigen3::Eigen OPTIONS ${SLAMMOT_LIBRARY_OPT
 
 # slammot_library(common_geometry SOURCES a.cpp b.cpp LINK Eigen3::Eigen)
 # Releases compile up to 12 sources of a library as one: their common headers (Eigen, CLI11, nlohmann::json, Boost.Beast) cost more
-# than they do themselves. So names are unique within a library, also those without linkage. Elsewhere each is compiled by itself:
+# than they do themselves. So names are unique within a library, also those without linkage: a second function of a name may be a better match of a call. Elsewhere each is compiled by itself:
 # for clang-tidy, and as a check that it includes what it uses.
 function(slammot_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
@@ -75,9 +75,11 @@ endfunction()
 
 # slammot_test(unit_geometry SOURCES ... LINK ...): a GoogleTest executable whose tests ctest knows one by one. What is
 # tested is optimized in its own library; tests are built in half the time with less, and with their headers precompiled.
+# Sources are compiled together as those of a library; APART are those with names that others have, too.
 # SLAMMOT_TEST_LABEL is a label besides; `ninja tests_LABEL` builds the programs that have it.
 function(slammot_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;APART;LINK;LABELS" ${ARGN})
+  set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 60)
   endif()
@@ -85,11 +87,12 @@ function(slammot_test name)
     set(ARG_LABELS unit)
   endif()
   math(EXPR limit_s "${ARG_TIMEOUT} * ${SLAMMOT_TEST_PATIENCE}")
-  add_executable(${name} ${ARG_SOURCES})
+  add_executable(${name} ${ARG_SOURCES} ${ARG_APART})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_options(${name} PRIVATE ${SLAMMOT_TEST_OPTIONS})
   target_precompile_headers(${name} REUSE_FROM test_headers)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${SLAMMOT_JOIN_SOURCES} UNITY_BUILD_BATCH_SIZE 6)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT ${limit_s} LABELS "${ARG_LABELS}")
   if(SLAMMOT_TEST_LABEL)  # by a file of its own: gtest_discover_tests takes lists apart

@@ -54,7 +54,7 @@ UncertainPose2 transform(const Eigen::Matrix<double, N, N>& covariance, PoseOf p
 const Matrix3 kHeadingFirst{{0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
 
 template <typename Error>
-Pose2 displaced(const Pose2& pose, const Error& heading_first) {
+Pose2 moved_by_error(const Pose2& pose, const Error& heading_first) {
   return {pose.x_m + heading_first[1], pose.y_m + heading_first[2],
           pose.heading_rad + heading_first[0]};
 }
@@ -68,8 +68,8 @@ UncertainPose2 of_two(const UncertainPose2& first, const UncertainPose2& second,
   joint.bottomLeftCorner<3, 3>() = joint.topRightCorner<3, 3>().transpose();
   joint.bottomRightCorner<3, 3>() = kHeadingFirst * second.covariance * kHeadingFirst.transpose();
   return transform<6>(joint, [&](const Eigen::Matrix<double, 6, 1>& error) {
-    return operation(displaced(first.pose, error.head<3>()),
-                     displaced(second.pose, error.tail<3>()));
+    return operation(moved_by_error(first.pose, error.head<3>()),
+                     moved_by_error(second.pose, error.tail<3>()));
   });
 }
 
@@ -105,7 +105,7 @@ UncertainPose2 compound_as_needed(const UncertainPose2& a_from_b, const Uncertai
 UncertainPose2 inverse(const UncertainPose2& a_from_b) {
   return transform<3>(kHeadingFirst * a_from_b.covariance * kHeadingFirst.transpose(),
                       [&](const Eigen::Vector3d& error) {
-                        return geometry::inverse(displaced(a_from_b.pose, error));
+                        return geometry::inverse(moved_by_error(a_from_b.pose, error));
                       });
 }
 

@@ -9,9 +9,9 @@ namespace {
 constexpr double kSpeed_mps = 5.0;
 constexpr double kRadius_m = 25.0;     // Of the vehicle's circle, whose centre is in the middle.
 constexpr double kHalfWidth_m = 50.0;  // Of the square of the objects.
-constexpr double kAcceleration_mps2 = 0.5;  // Of movers, white, one sigma an axis and period.
-constexpr double kReturn_mps2 = 1.0;        // Towards the middle for movers outside the square.
-constexpr double kStopCycle_s = 15.0;       // One stop in each, for a third of it.
+constexpr double kWorldAcceleration_mps2 = 0.5;  // Of movers, white, one sigma an axis and period.
+constexpr double kReturn_mps2 = 1.0;   // Towards the middle for movers outside the square.
+constexpr double kStopCycle_s = 15.0;  // One stop in each, for a third of it.
 
 }  // namespace
 
@@ -52,7 +52,7 @@ Control World::advance() {
 void World::move(PointObject& object, std::size_t mover) {
   Eigen::Vector2d& cruising_mps = cruising_mps_[mover];
   const Eigen::Vector2d from_middle_m = object.place_m - Eigen::Vector2d(0.0, kRadius_m);
-  Eigen::Vector2d acceleration{normal(kAcceleration_mps2), normal(kAcceleration_mps2)};
+  Eigen::Vector2d acceleration{normal(kWorldAcceleration_mps2), normal(kWorldAcceleration_mps2)};
   if (from_middle_m.lpNorm<Eigen::Infinity>() > kHalfWidth_m)
     acceleration -= kReturn_mps2 * from_middle_m.normalized();
   const double phase = std::fmod(time_s_ + static_cast<double>(mover), kStopCycle_s) / kStopCycle_s;
