@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/app/give_way.hpp"
 #include "common/app/interface_watch.hpp"
 #include "common/app/log.hpp"
 #include "common/app/standby.hpp"
@@ -131,6 +132,7 @@ int run_service(int argc, char** argv, const ServiceDescription& description) {
   if (options.print_config || options.check_config) return 0;
   set_up_log(description.name);
   std::signal(SIGPIPE, SIG_IGN);
+  if (description.gives_way) give_way();  // before there are other threads
   return serve_or_say_why_not(program, description, options);
 }
 

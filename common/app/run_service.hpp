@@ -31,6 +31,7 @@ struct ServiceDescription {
   std::function<std::shared_ptr<void>(ServiceContext&)> make;
   bool is_one_per_vehicle = false;  ///< A second process of it stands by.
   bool keeps_state = false;         ///< In the state directory, which is locked.
+  bool gives_way = false;           ///< To the services on the way of a scan.
 };
 
 /// Runs a service: command line, configuration, log, signals, bus, loop, exit.
@@ -40,6 +41,8 @@ template <typename Service>
 concept IsOnePerVehicle = Service::kIsOnePerVehicle;
 template <typename Service>
 concept KeepsState = Service::kKeepsState;
+template <typename Service>
+concept GivesWay = Service::kGivesWay;
 
 /// The same for a class that has
 ///   struct Settings                      its configuration and options, with defaults,
@@ -48,7 +51,7 @@ concept KeepsState = Service::kKeepsState;
 ///   static void add_options(CLI::App&, Settings&),
 ///   Service(ServiceContext&, const Settings&)
 ///                                        which says what it reads, writes and does periodically,
-/// and, where it is true, static constexpr bool kIsOnePerVehicle, kKeepsState.
+/// and, where it is true, static constexpr bool kIsOnePerVehicle, kKeepsState, kGivesWay.
 template <typename Service>
 int run_service(int argc, char** argv) {
   typename Service::Settings settings;
@@ -59,7 +62,8 @@ int run_service(int argc, char** argv) {
       [&](CLI::App& command_line) { Service::add_options(command_line, settings); },
       [&](ServiceContext& context) { return std::make_shared<Service>(context, settings); },
       IsOnePerVehicle<Service>,
-      KeepsState<Service>};
+      KeepsState<Service>,
+      GivesWay<Service>};
   return run_service(argc, argv, description);
 }
 

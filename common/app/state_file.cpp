@@ -1,8 +1,5 @@
 #include "common/app/state_file.hpp"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <array>
 #include <cstring>
 #include <fstream>
@@ -10,6 +7,7 @@
 
 #include <zlib.h>
 
+#include "common/app/give_way.hpp"
 #include "common/app/log.hpp"
 
 namespace slammot::app {
@@ -94,8 +92,7 @@ std::string StateFile::fault() const {
 }
 
 void StateFile::write_states() {
-  constexpr int kGivesWay = 4;  // more, and a busy machine keeps old states only
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kGivesWay);
+  give_way();
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return next_ || is_closing_; });

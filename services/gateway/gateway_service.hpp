@@ -27,6 +27,7 @@ class GatewayService {
   static constexpr const char* kName = "gateway";
   static constexpr const char* kPurpose =
       "Shows map, tracks and health in the browser and in viewers that speak Foxglove's protocol.";
+  static constexpr bool kGivesWay = true;
   static std::vector<config::BoundStage> stages(Settings&) { return {}; }
   static void add_options(CLI::App& command_line, Settings& settings);
 

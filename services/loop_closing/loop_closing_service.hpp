@@ -22,6 +22,7 @@ class LoopClosingService {
   static constexpr const char* kName = "loop_closing";
   static constexpr const char* kPurpose =
       "Detects revisited places and corrects the poses of all submaps.";
+  static constexpr bool kGivesWay = true;
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 

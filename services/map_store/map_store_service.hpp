@@ -29,6 +29,7 @@ class MapStoreService {
   static constexpr const char* kName = "map_store";
   static constexpr const char* kPurpose =
       "Stores the finished submaps of a vehicle, so that no crash loses one.";
+  static constexpr bool kGivesWay = true;
   static constexpr bool kKeepsState = true;
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);

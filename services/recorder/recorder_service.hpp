@@ -29,6 +29,7 @@ class RecorderService {
   };
   static constexpr const char* kName = "recorder";
   static constexpr const char* kPurpose = "Records topics of the bus into an MCAP file.";
+  static constexpr bool kGivesWay = true;
   static std::vector<config::BoundStage> stages(Settings&) { return {}; }
   static void add_options(CLI::App& command_line, Settings& settings);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/app/give_way.hpp"
 #include "services/simulator/drive_text.hpp"
 
 namespace slammot::simulator {
@@ -73,6 +74,7 @@ LiveDrive::LiveDrive(const simulation::ScenarioConfig& scenario,
       thread_([this](const std::stop_token& stop) { simulate(stop); }) {}
 
 void LiveDrive::simulate(const std::stop_token& stop) {
+  app::give_way();  // to the services, which it is ahead of
   put_lines(log_header(scenario_), stop);
   while (const auto scan = drive_.next()) {
     truth_.add(*scan);

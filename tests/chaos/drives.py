@@ -1,7 +1,9 @@
-"""Long drives made of a short one."""
+"""Drives of the length that a case wants."""
 
 import gzip
 import pathlib
+
+import chaos
 
 
 def open_text(path, mode):
@@ -28,3 +30,12 @@ def to_and_fro(recorded, path, scans):
             stamp = stamps[0] + number * period_s
             file.write(f"{body} {stamp:.6f} {host} {stamp:.6f}\n")
     return pathlib.Path(path)
+
+
+def scenario_of(folder, name, duration_s):
+    """A copy of a scenario that takes so long."""
+    text = (chaos.ROOT / f"deploy/scenarios/{name}.textproto").read_text(encoding="utf-8")
+    path = folder / "drive.textproto"
+    path.write_text("".join(f"duration_s: {duration_s}\n" if line.startswith("duration_s:") else line + "\n" for line in text.splitlines()),
+                    encoding="utf-8")
+    return path

@@ -11,6 +11,7 @@ import time
 import types
 
 import chaos
+import drives
 import timeline as lines
 
 SERVICES = ["ingest", "localization", "detection", "tracking", "loop-closing", "map-store"]
@@ -31,15 +32,6 @@ def children_of(process):
         except (OSError, KeyError):
             pass  # it has just ended
     return found
-
-
-def scenario_of(folder, name, duration_s):
-    """A copy of a scenario that ends earlier."""
-    text = (chaos.ROOT / f"deploy/scenarios/{name}.textproto").read_text(encoding="utf-8")
-    path = folder / "drive.textproto"
-    path.write_text("".join(f"duration_s: {duration_s}\n" if line.startswith("duration_s:") else line + "\n" for line in text.splitlines()),
-                    encoding="utf-8")
-    return path
 
 
 def kill_at_random(bench, rng, count):
@@ -98,7 +90,7 @@ def cases(options):
         folder = pathlib.Path(name)
         slammot = options.bin / "slammot"
         quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "check": True}
-        subprocess.run([slammot, "simulate", scenario_of(folder, "demo", seconds), "--output", folder], **quiet)
+        subprocess.run([slammot, "simulate", drives.scenario_of(folder, "demo", seconds), "--output", folder], **quiet)
         log, truth = folder / "drive.log", folder / "drive"
         subprocess.run([slammot, "run", "--input", log, "--output", folder / "run", "--profile", "urban"], **quiet)
         bench = subprocess.Popen([slammot, "bench", "--input", log, "--output", folder / "killed", "--profile", "urban", "--speed", "1",

@@ -6,11 +6,13 @@ import subprocess
 import time
 
 import chaos
+import drives
 
 SHORT_S, FULL_S = 45, 600
 P50_MS, P99_MS, WORST_MS, OF_HOPS = 1.5, 5.0, 50.0, 1.5
 HOPS = 4  # source - localization - detection - tracking - observer
 SCAN_BYTES = 1500
+UNTIL_TRACKS_S = 15  # for which the drive is longer
 
 
 def hop_ms(services, seconds):
@@ -37,12 +39,13 @@ def stage_compute_ms(observer):
 def cases(options):
     seconds = FULL_S if options.full else SHORT_S
     with chaos.Services(options) as services:
+        drive = options.input or services.simulate(drives.scenario_of(services.folder, "city", seconds + UNTIL_TRACKS_S))
         services.start_all([*chaos.KEEPERS, *chaos.PROCESSORS], "--profile", "urban")
         services.start("gateway", "--port", 8900)
         services.start("recorder", "--output", services.folder / "recording")
         observer = services.observe(stages=True)
         began = time.monotonic()
-        start_source(options, services)
+        services.start("ingest", "--input", drive, "--profile", "urban")
         chaos.wait_until(lambda: observer.vehicle("vehicle")["tracked"] > 0, "tracks", 60)
         hop = hop_ms(services, min(seconds, 20))
         time.sleep(max(0.0, seconds - (time.monotonic() - began)))
@@ -57,14 +60,6 @@ def cases(options):
     yield chaos.row(f"one vehicle at 37.5 Hz, {seconds} s, everything on, scan published to tracks received",
                     f"p50 {P50_MS} ms, p99 {P99_MS} ms, worst {WORST_MS} ms; p50 at most {OF_HOPS} x stages and hops", figure, passed,
                     sound=latencies["count"] > 0.9 * 37.5 * (seconds - 10) and agrees(own["p50_ms"], latencies["p50"]), latencies=latencies, stages=stages, hop_ms=hop, budget_ms=budget, unanswered=unanswered)
-
-
-def start_source(options, services):
-    """A recorded drive if one is given, otherwise the city, simulated as it goes."""
-    if options.input:
-        services.start("ingest", "--input", options.input, "--profile", "urban")
-    else:
-        services.start("simulator", "--scenario", "city", "--linger")
 
 
 if __name__ == "__main__":
