@@ -13,6 +13,7 @@
 #include "services/evaluator/figures.hpp"
 #include "services/evaluator/stamps.hpp"
 #include "services/evaluator/table_file.hpp"
+#include "services/evaluator/way_drawing.hpp"
 
 namespace slammot::evaluator {
 namespace {
@@ -162,6 +163,23 @@ Json graph_json(const ResultGraph& graph) {
   return json;
 }
 
+/// Points in whole decimetres.
+Json lanes_json(const std::vector<traffic::Way>& ways) {
+  Json json = Json::array();
+  for (const traffic::Way& way : ways) {
+    Json points = Json::array();
+    for (const geometry::Vector2& point_m : way.points_in_map_m)
+      for (const double value_m : {point_m.x(), point_m.y()})
+        points.push_back(std::round(10.0 * value_m) / 10.0);
+    json.push_back({{"color", colour_of(way.mover)},
+                    {"directed", traffic::is_directed(way.mover)},
+                    {"width", std::round(10.0 * way.width_m) / 10.0},
+                    {"confidence", std::round(100.0 * way.confidence) / 100.0},
+                    {"points", std::move(points)}});
+  }
+  return json;
+}
+
 Json doubts_json(const RunResult& result, const std::vector<float>& times_s) {
   Json json = Json::array();
   for (const Doubt& doubt : find_doubts(result)) {
@@ -250,6 +268,7 @@ DriveData encode_drive(const RunResult& result, const ReportPicture* picture) {
                  {"columns", columns.names()},
                  {"map", nullptr},
                  {"graph", graph_json(result.graph)},
+                 {"lanes", lanes_json(result.ways.value_or(std::vector<traffic::Way>{}))},
                  {"doubts", doubts_json(result, frames.time)}};
   if (picture != nullptr)
     header["map"] = {{"min", {picture->min_x_m, picture->min_y_m}},

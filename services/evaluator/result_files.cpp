@@ -210,6 +210,11 @@ std::optional<Error> read_small_files(const path& folder, RunResult& result) {
                             number_of_input(report, "laser_heading_rad")};
   result.losses = losses_of(report, result.online.front().stamp_ns);
   result.graph = read_graph(folder / "graph.g2o");
+  if (std::filesystem::exists(folder / "lanes.geojson")) {
+    auto ways = files::read_ways(folder / "lanes.geojson");
+    if (!ways) return ways.error();
+    result.ways = std::move(*ways);
+  }
   for (const auto& [name, image] :
        {std::pair("map.yaml", &result.map), std::pair("moving.yaml", &result.moving)}) {
     if (!std::filesystem::exists(folder / name)) continue;
@@ -244,11 +249,6 @@ Result<RunResult> read_result(const path& folder) {
   }
   if (const auto file = plain_or_gz(folder / "labels.csv")) {
     if (auto fault = read_labels(*file, result.labels)) return *fault;
-  }
-  if (std::filesystem::exists(folder / "lanes.geojson")) {
-    auto ways = files::read_ways(folder / "lanes.geojson");
-    if (!ways) return ways.error();
-    result.ways = std::move(*ways);
   }
   if (auto fault = read_small_files(folder, result)) return *fault;
   return result;

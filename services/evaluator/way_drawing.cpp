@@ -7,15 +7,6 @@ namespace {
 
 using geometry::Vector2;
 
-const char* colour_of(traffic::Mover mover) {
-  switch (mover) {
-    case traffic::Mover::kVehicle: return "car";
-    case traffic::Mover::kBicycle: return "bicycle";
-    case traffic::Mover::kPedestrian: return "pedestrian";
-  }
-  return "other";
-}
-
 std::vector<PlotPoint> places_of(const traffic::Way& way, const GroundView& view) {
   std::vector<PlotPoint> places;
   for (const Vector2& point_m : way.points_in_map_m) places.push_back(view.place(point_m));
@@ -36,6 +27,15 @@ AreaMark arrow_of(const traffic::Way& way, const GroundView& view, const Ink& in
 }
 
 }  // namespace
+
+const char* colour_of(traffic::Mover mover) {
+  switch (mover) {
+    case traffic::Mover::kVehicle: return "car";
+    case traffic::Mover::kBicycle: return "bicycle";
+    case traffic::Mover::kPedestrian: return "pedestrian";
+  }
+  return "other";
+}
 
 void add_ways(const std::vector<traffic::Way>& ways, const GroundView& view, const PageTheme& theme,
               Drawing& drawing) {

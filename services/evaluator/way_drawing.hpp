@@ -7,6 +7,9 @@
 
 namespace slammot::evaluator {
 
+/// Name of a colour of the page's theme.
+const char* colour_of(traffic::Mover mover);
+
 /// Lanes, cycle lanes and walkways in the colours of cars, bicycles and pedestrians: the width that
 /// is used, the middle, and on those with a direction an arrow in each piece. The less certain, the
 /// fainter.

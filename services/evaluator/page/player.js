@@ -2,7 +2,7 @@
 import { Camera } from "./camera.js";
 import { Input, tiltOf } from "./input.js";
 import { Labels } from "./labels.js";
-import { readOptions } from "./options.js";
+import { LAYERS, readOptions } from "./options.js";
 import { bars, buildLayers, degrees, drawPlot, element, number, showLegend, showScale } from "./panels.js";
 import { Recording, Replay } from "./recording.js";
 import { ReplayScene } from "./replay_scene.js";
@@ -22,6 +22,7 @@ class Player {
     this.recording = recording;
     this.replay = new Replay(recording);
     this.camera = new Camera();
+    if (recording.header.lanes.length) LAYERS.lanes = ["Lanes and walkways", 0.7];
     this.options = readOptions(this.camera);
     if (!location.hash.includes("l=")) this.options.layers.graph = 0.8;
     this.isDirty = true;

@@ -32,6 +32,13 @@ async def opens(page, file, name="window.slammotReport"):
     check(await page.comes_to(f"{name} && slammotReport.scene.map.parts.length === 1"), f"{file.name} opens without a server, with its map")
 
 
+async def test_lanes(page):
+    lanes = await page.value("slammotReport.recording.header.lanes.length")
+    strips = "(() => { const p = slammotReport; p.options.layers.lanes = %s; p.scene.draw(p.camera, p.options, 0); return p.scene.shapes.lines.count; })()"
+    hidden, shown = [await page.value(strips % opacity) for opacity in (0, 0.7)]
+    check(lanes > 0 and shown >= hidden + 2 * lanes, f"{lanes} lanes and walkways are drawn, and can be hidden")
+
+
 async def test_time(page):
     duration = await page.value("slammotReport.recording.duration")
     elapsed_ms = await page.value(
@@ -92,6 +99,7 @@ async def main(options):
             await opens(page, result / "report.html")
             if options.pictures:
                 return await take_pictures(page, options.pictures)
+            await test_lanes(page)
             await test_time(page)
             await test_track(page)
             slammot(options.slammot, "report", result, result, "--output", Path(folder) / "comparison.html")

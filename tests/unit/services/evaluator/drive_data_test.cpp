@@ -66,6 +66,28 @@ TEST(DriveData, HoldsTenFramesASecond) {
   EXPECT_EQ(column<std::uint32_t>(data, "first_row").size(), 22U);
 }
 
+TEST(DriveData, HoldsLanesInDecimetres) {
+  RunResult result = drive(3);
+  EXPECT_TRUE(nlohmann::json::parse(encode_drive(result, nullptr).header)["lanes"].empty());
+  traffic::Way lane;
+  lane.mover = traffic::Mover::kVehicle;
+  lane.points_in_map_m = {{0.04, -2.0}, {10.06, -2.0}};
+  lane.width_m = 2.83;
+  lane.confidence = 0.667;
+  traffic::Way walkway = lane;
+  walkway.mover = traffic::Mover::kPedestrian;
+  result.ways = {lane, walkway};
+  const auto lanes = nlohmann::json::parse(encode_drive(result, nullptr).header)["lanes"];
+  ASSERT_EQ(lanes.size(), 2U);
+  EXPECT_EQ(lanes[0]["points"], nlohmann::json::parse("[0.0, -2.0, 10.1, -2.0]"));
+  EXPECT_EQ(lanes[0]["width"], 2.8);
+  EXPECT_EQ(lanes[0]["confidence"], 0.67);
+  EXPECT_EQ(lanes[0]["color"], "car");
+  EXPECT_TRUE(lanes[0]["directed"]);
+  EXPECT_EQ(lanes[1]["color"], "pedestrian");
+  EXPECT_FALSE(lanes[1]["directed"]);
+}
+
 TEST(DriveData, MovesTracksWithTheCorrectedPose) {
   const DriveData data = encode_drive(drive(3), nullptr);
   EXPECT_FLOAT_EQ(column<float>(data, "track_y")[0], 3.0F);
