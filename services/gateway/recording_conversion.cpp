@@ -5,14 +5,15 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <type_traits>
 
 #include "common/dds/config.hpp"
 #include "common/dds/raw_writer.hpp"
 #include "common/dds/reader.hpp"
 #include "common/mcap/message_cursor.hpp"
 #include "common/recordings/recorded_topic.hpp"
+#include "common/wire/sensor.hpp"
 #include "services/gateway/drive_messages.hpp"
-#include "services/gateway/foxglove_file.hpp"
 
 namespace slammot::gateway {
 namespace {
@@ -29,9 +30,11 @@ DriveMessages::Time time_at(std::int64_t log_time_ns) {
 /// a writer of bytes and a typed reader of the same process, on a bus of its own.
 class Decoder {
  public:
-  Decoder(const mcap::File& recording, DriveMessages& drive, ConvertedRecording& result)
+  Decoder(const mcap::File& recording, MessageFormat& format, DriveMessages& drive,
+          ConvertedRecording& result)
       : participant_({0, "slammot-convert",
                       dds::loopback_config("slammot-convert-" + std::to_string(getpid()))}),
+        format_(format),
         drive_(drive),
         result_(result) {
     add(recording, topics::kLaserScan);
@@ -73,10 +76,17 @@ class Decoder {
   template <typename Sample>
   void take(const Sample& sample) {
     if (result_.vehicle_id.empty()) result_.vehicle_id = sample.vehicle_id;
-    if (result_.vehicle_id == sample.vehicle_id) drive_.take(sample);
+    if (result_.vehicle_id != sample.vehicle_id) return;
+    if constexpr (std::is_same_v<Sample, slammot_LaserScan>) know_scanner(sample);
+    drive_.take(sample);
+  }
+
+  void know_scanner(const slammot_LaserScan& sample) {
+    if (const auto scan = wire::decode(sample)) format_.know(scan->scanner);
   }
 
   dds::Participant participant_;
+  MessageFormat& format_;
   DriveMessages& drive_;
   ConvertedRecording& result_;
   std::map<mcap::ChannelId, std::function<void(const mcap::Message&)>> takes_;
@@ -85,14 +95,14 @@ class Decoder {
 }  // namespace
 
 ConvertedRecording convert_recording(const mcap::File& recording,
-                                     const std::filesystem::path& output,
+                                     const std::filesystem::path& output, MessageFormat& format,
                                      const std::string& vehicle_id) {
   ConvertedRecording result;
   result.vehicle_id = vehicle_id;
-  FoxgloveFile file(output);
+  ViewerFile file(output, format);
   if (!file.fault().empty()) return {0, 0, {}, file.fault()};
   DriveMessages drive(file, [&](const char*, std::string_view) { ++result.dropped; });
-  Decoder decoder(recording, drive, result);
+  Decoder decoder(recording, format, drive, result);
   if (decoder.is_empty()) {
     std::filesystem::remove(output);
     return {0, 0, {}, "the recording has no topic that viewers know"};

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/mcap/file.hpp"
+#include "services/gateway/viewer_file.hpp"
 
 namespace slammot::gateway {
 
@@ -15,10 +16,10 @@ struct ConvertedRecording {
   std::string fault;          ///< Empty on success.
 };
 
-/// Writes the messages that viewers of the recorded drive were sent: an MCAP file with Foxglove's
-/// schemas. `vehicle_id`: of a recording of several vehicles; empty: the first in it.
+/// Writes the messages that viewers of the recorded drive were sent into an MCAP file of this
+/// format. `vehicle_id`: of a recording of several vehicles; empty: the first in it.
 ConvertedRecording convert_recording(const mcap::File& recording,
-                                     const std::filesystem::path& output,
+                                     const std::filesystem::path& output, MessageFormat& format,
                                      const std::string& vehicle_id);
 
 }  // namespace slammot::gateway

@@ -26,6 +26,7 @@ MOST_BYTES_PER_S = 2e6
 MOST_SECONDS_TO_PICTURE = 2.0
 MOST_GROWTH_MB = 20
 SETTLE_S = 10
+VISITS = 3
 SAMPLE_S = 15
 
 
@@ -65,8 +66,13 @@ async def main(options):
         recording = recording_of(options, folder)
         with Recorded(options.slammot, recording, "--speed", options.speed, "--from", options.from_s, "--loop") as recorded:
             recorded.wait_until_ready()
+            visits = []
+            for _ in range(VISITS - 1):
+                async with open_page() as page:
+                    visits.append((await first_picture(page, recorded))[0])
             async with open_page() as page:
                 picture_s, complete_s = await first_picture(page, recorded)
+                visits.append(picture_s)
                 count = await page.value("slammot.map.submaps.size")
                 driven = await page.value("slammot.world.drivenLength")
                 print(f"first picture after {picture_s:.2f} s, all {count} submaps after {complete_s:.2f} s, {driven:.0f} m driven")
@@ -82,7 +88,8 @@ async def main(options):
         growth = rows[-1][2] - rows[len(rows) // 2][2]
         check(growth < MOST_GROWTH_MB, f"memory does not grow: {growth:+.1f} MB in the second half")
         if options.strict:
-            check(picture_s < MOST_SECONDS_TO_PICTURE, "first picture within 2 s")
+            texts = ", ".join(f"{visit_s:.2f}" for visit_s in visits)
+            check(sorted(visits)[VISITS // 2] < MOST_SECONDS_TO_PICTURE, f"first picture within 2 s, by the median of browsers just started: {texts} s")
             check(sorted(row[0] for row in rows)[len(rows) // 2] >= LEAST_FRAMES_PER_S, "at least 30 frames/s")
 
 

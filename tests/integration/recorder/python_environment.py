@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 SKIPPED = 77
-PACKAGES = ["mcap", "protobuf", "zstandard", "lz4"]
+PACKAGES = ["mcap", "protobuf", "zstandard", "lz4", "rosbags"]
 
 
 def enter(venv: pathlib.Path):
@@ -13,7 +13,7 @@ def enter(venv: pathlib.Path):
     python = venv / "bin" / "python"
     if pathlib.Path(sys.prefix).resolve() == venv.resolve():
         return
-    has_all = [str(python), "-c", "import mcap, google.protobuf, zstandard, lz4"]
+    has_all = [str(python), "-c", "import mcap, google.protobuf, zstandard, lz4, rosbags"]
     if not python.exists() or subprocess.run(has_all, capture_output=True, check=False).returncode != 0:
         install = [str(venv / "bin" / "pip"), "install", "--quiet", "--disable-pip-version-check", "--retries", "1", *PACKAGES]
         for step in ([sys.executable, "-m", "venv", str(venv)], install):
