@@ -32,7 +32,7 @@ OutlineMeasurement first_outline(const FirstObservation& first, const TrackingCo
   blob.road_users = &road_users;
   blob.length = {span_m, 1.0};
   blob.width = {span_m, 1.0};
-  return measure(blob, Vector2d::Zero(), first.observation, config);
+  return measure(blob, Eigen::Vector2d::Zero(), first.observation, config);
 }
 
 filters::MotionState state_at_rest(const OutlineMeasurement& measurement,
