@@ -40,8 +40,8 @@ slammot_precompile(core_headers LINK Eigen3::Eigen OPTIONS ${SLAMMOT_LIBRARY_OPT
 
 # slammot_library(common_geometry SOURCES a.cpp b.cpp LINK Eigen3::Eigen)
 # Releases compile up to 12 sources of a library as one: their common headers (Eigen, CLI11, nlohmann::json, Boost.Beast) cost more
-# than they do themselves. So names are unique within a library, also those without linkage: a second function of a name may be a better match of a call. Elsewhere each is compiled by itself:
-# for clang-tidy, and as a check that it includes what it uses.
+# than they do themselves. So names are unique within a library, also those without linkage: of two functions of a name, a call could
+# take the wrong one. Elsewhere each source is compiled by itself: for clang-tidy, and as a check that it includes what it uses.
 function(slammot_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})

@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace slammot::filters {
+
 Gpb1State gpb1_start(const ModelSet& set, const MotionState& estimate) {
   return {estimate, equal_weights(set)};
 }

@@ -1,6 +1,5 @@
 #include "common/metrics/clear_mot.hpp"
 
-#include <limits>
 #include <optional>
 #include <utility>
 
