@@ -52,6 +52,7 @@ CellStates cells_of(const flow::Submap& submap, const PlaceConfig& config) {
   for_each_cell(
       submap, [occupied](std::int8_t log_odds) { return log_odds >= occupied; },
       [&](std::int32_t column, std::int32_t row) { mark_around(cells, column, row, radius); });
+  cells.share_blocks();  // kept as long as the map
   return cells;
 }
 

@@ -21,11 +21,33 @@ TEST(CellStates, HoldsWhatWasSet) {
     states.set(column, row, state);
     expected[static_cast<std::size_t>(row * kColumns + column)] = state;
   }
-  for (std::int32_t row = 0; row < kRows; ++row) {
-    for (std::int32_t column = 0; column < kColumns; ++column)
-      ASSERT_EQ(states.at(column, row), expected[static_cast<std::size_t>(row * kColumns + column)])
-          << column << ", " << row;
+  for (const bool shares : {false, true}) {
+    if (shares) states.share_blocks();
+    for (std::int32_t row = 0; row < kRows; ++row) {
+      for (std::int32_t column = 0; column < kColumns; ++column)
+        ASSERT_EQ(states.at(column, row),
+                  expected[static_cast<std::size_t>(row * kColumns + column)])
+            << column << ", " << row;
+    }
   }
+}
+
+TEST(CellStates, StoresEqualBlocksOnce) {
+  CellStates states(256, 64);
+  for (std::int32_t row = 0; row < 64; ++row) {
+    for (std::int32_t column = 0; column < 256; ++column) states.set(column, row, CellState::kFree);
+  }
+  states.set(200, 40, CellState::kOccupied);
+  const std::size_t bytes_before = states.bytes();
+  EXPECT_EQ(states.blocks(), 256U);
+  states.share_blocks();
+  EXPECT_EQ(states.blocks(), 2U) << "free throughout, and the one with a wall";
+  EXPECT_LT(states.bytes(), bytes_before / 2);
+  EXPECT_EQ(states.at(200, 40), CellState::kOccupied);
+  EXPECT_EQ(states.at(208, 40), CellState::kFree);
+  CellStates none;
+  none.share_blocks();
+  EXPECT_EQ(none.blocks(), 0U);
 }
 
 TEST(CellStates, TakesNoMemoryForWhatIsUnknown) {
@@ -35,6 +57,8 @@ TEST(CellStates, TakesNoMemoryForWhatIsUnknown) {
   states.set(999, 999, CellState::kFree);
   states.set(992, 992, CellState::kOccupied);
   EXPECT_EQ(states.blocks(), 1U);
+  states.set(991, 992, CellState::kOccupied);
+  EXPECT_EQ(states.blocks(), 2U);
   EXPECT_EQ(CellStates().blocks(), 0U);
 }
 
