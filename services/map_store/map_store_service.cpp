@@ -11,6 +11,8 @@
 namespace slammot::map_store {
 namespace {
 
+constexpr std::chrono::milliseconds kAdvancePeriod{50};
+
 std::string names_of(const std::vector<Store::StoredMap>& maps) {
   std::string names;
   for (const Store::StoredMap& map : maps)
@@ -53,10 +55,10 @@ MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& s
     : context_(context),
       config_(settings.config),
       store_(open_store(context, settings)),
-      stored_tiles_(context.write(dds::topics::kStoredSubmapTile)),
+      stored_submaps_(context, store_),
       stored_objects_(context.write(dds::topics::kStoredTrackedObjects)),
       stored_map_(context.write(dds::topics::kStoredMap)) {
-  publish_stored();
+  read_stored();
   context.read(dds::topics::kSubmapTile, app::Input::kOccasional,
                [this](const auto& tile) { take(tile); });
   // Relays the last tracks: a tracking service that restarts after a crash restores them from here.
@@ -64,6 +66,7 @@ MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& s
                [this](const slammot_TrackedObjects& objects) { stored_objects_.write(objects); });
   context.every(std::chrono::nanoseconds(static_cast<std::int64_t>(config_.retry_after_s * 1e9)),
                 [this] { retry(); });
+  context.every(kAdvancePeriod, [this] { stored_submaps_.advance(); });
 }
 
 void MapStoreService::take(const slammot_SubmapTile& tile) {
@@ -88,10 +91,9 @@ bool MapStoreService::store(const flow::Submap& submap) {
   context_.status().clear_trouble("database");
   if (result == PutResult::kStored) {
     ++context_.status().counter("stored_submaps");
-    if (map_id_ != submap.map_id) unreadable_.clear();
-    unreadable_.erase(submap.submap_id);
-    withdraw_previous_map();
-    publish(submap);
+    if (map_id_ != submap.map_id) begin_map();
+    note(submap);
+    stored_submaps_.publish(submap);
     publish_stored_map();
   }
   return true;
@@ -111,12 +113,9 @@ void MapStoreService::defer(flow::Submap submap) {
 void MapStoreService::retry() {
   while (!unwritten_.empty() && store(unwritten_.front())) unwritten_.pop_front();
   context_.status().counter("unwritten_submaps") = unwritten_.size();
-  for (const flow::SubmapId id : std::set<flow::SubmapId>(std::move(unpublished_))) {
-    if (const auto submap = store_.get(context_.vehicle_id(), id)) publish(*submap);
-  }
 }
 
-void MapStoreService::publish_stored() {
+void MapStoreService::read_stored() {
   const auto count_unreadable = [this](flow::SubmapId id) {
     unreadable_.insert(id);
     context_.warn("unreadable_submaps", store_.last_fault());
@@ -124,12 +123,12 @@ void MapStoreService::publish_stored() {
   const std::vector<flow::SubmapId> ids = store_.list(context_.vehicle_id());
   if (!store_.last_fault().empty()) count_unreadable({});
   for (const flow::SubmapId id : ids) {
-    if (const auto submap = store_.get(context_.vehicle_id(), id)) publish(*submap);
+    if (const auto submap = store_.get(context_.vehicle_id(), id)) note(*submap);
     else count_unreadable(id);
   }
   const std::vector<Store::StoredMap> maps = store_.maps(context_.vehicle_id());
-  if (!published_.empty())
-    app::log_info("{} submaps in the database, of map {}{}", published_.size(), map_id_.value,
+  if (!readable_.empty())
+    app::log_info("{} submaps in the database, of map {}{}", readable_.size(), map_id_.value,
                   maps.size() > 1 ? names_of(maps) : "");
   else report_other_vehicles();
   publish_stored_map();
@@ -152,40 +151,23 @@ void MapStoreService::publish_stored_map() {
   const flow::SubmapId last = stored.empty() ? flow::SubmapId{} : stored.back();
   stored_map_.write(wire::encode(
       context_.vehicle_id(),
-      flow::StoredMap{map_id_, static_cast<std::uint32_t>(published_.size()),
+      flow::StoredMap{map_id_, static_cast<std::uint32_t>(readable_.size()),
                       static_cast<std::uint32_t>(unreadable_.size()), last, cell_size_m_}));
 }
 
-void MapStoreService::publish(const flow::Submap& submap) {
-  std::uint32_t tiles = 0;
-  bool all_written = true;
-  encoder_.encode(context_.vehicle_id(), submap, [&](const slammot_SubmapTile& tile) {
-    all_written = all_written && stored_tiles_.write(tile) == dds::WriteResult::kWritten;
-    ++tiles;
-  });
-  published_[submap.submap_id] = tiles;
+void MapStoreService::note(const flow::Submap& submap) {
+  readable_.insert(submap.submap_id);
+  unreadable_.erase(submap.submap_id);
   map_id_ = submap.map_id;
   cell_size_m_ = submap.cell_size_m;
-  if (!all_written) {
-    unpublished_.insert(submap.submap_id);
-    context_.warn("slow_readers", "a reader of stored submaps is slow: publishes again later");
-  } else {
-    unpublished_.erase(submap.submap_id);
-  }
 }
 
-/// Withdraws tiles of the previous map, so that late joiners do not receive both.
-void MapStoreService::withdraw_previous_map() {
+/// Another map is the latest from now on.
+void MapStoreService::begin_map() {
+  stored_submaps_.withdraw();
+  unreadable_.clear();
   const std::vector<flow::SubmapId> stored = store_.list(context_.vehicle_id());
-  slammot_SubmapTile key{};
-  wire::set_text(key.vehicle_id, context_.vehicle_id());
-  std::erase_if(published_, [&](const auto& published) {
-    if (std::ranges::binary_search(stored, published.first)) return false;
-    key.submap_id = published.first.value;
-    for (key.tile_index = 0; key.tile_index < published.second; ++key.tile_index)
-      stored_tiles_.end(key);
-    return true;
-  });
+  readable_ = {stored.begin(), stored.end()};
 }
 
 }  // namespace slammot::map_store

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,6 +11,7 @@
 #include "common/app/run_service.hpp"
 #include "common/wire/stored_map.hpp"
 #include "common/wire/submap.hpp"
+#include "services/map_store/map_store_service_submaps.hpp"
 #include "services/map_store/store.hpp"
 
 namespace slammot::map_store {
@@ -42,9 +42,9 @@ class MapStoreService {
   bool store(const flow::Submap& submap);
   void defer(flow::Submap submap);
   void retry();
-  void publish_stored();
-  void publish(const flow::Submap& submap);
-  void withdraw_previous_map();
+  void read_stored();
+  void note(const flow::Submap& submap);
+  void begin_map();
   void report_other_vehicles();
   void publish_stored_map();
 
@@ -52,16 +52,14 @@ class MapStoreService {
   MapStoreConfig config_;
   Store store_;
   wire::SubmapAssembler assembler_;
-  wire::SubmapEncoder encoder_;
-  dds::Writer<slammot_SubmapTile>& stored_tiles_;
+  StoredSubmaps stored_submaps_;
   dds::Writer<slammot_TrackedObjects>& stored_objects_;
   dds::Writer<slammot_StoredMap>& stored_map_;
   std::deque<flow::Submap> unwritten_;
-  std::set<flow::SubmapId> unpublished_;               ///< Stored, but not all tiles are published.
-  std::map<flow::SubmapId, std::uint32_t> published_;  ///< Number of tiles.
-  std::set<flow::SubmapId> unreadable_;                ///< Damaged records.
-  flow::MapId map_id_;                                 ///< Map of the latest published submap.
-  double cell_size_m_ = 0.0;  ///< Cell size of the latest published submap.
+  std::set<flow::SubmapId> readable_;
+  std::set<flow::SubmapId> unreadable_;  ///< Damaged records.
+  flow::MapId map_id_;                   ///< Map of the latest stored submap.
+  double cell_size_m_ = 0.0;             ///< Cell size of the latest stored submap.
 };
 
 }  // namespace slammot::map_store

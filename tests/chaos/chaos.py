@@ -29,6 +29,7 @@ def parse(arguments=None):
     parser.add_argument("--observer", type=pathlib.Path, default=ROOT / "build/release/tests/chaos_observer")
     parser.add_argument("--domain", type=int, default=100, help="DDS domain; its bus is on loopback, and closed by a tag")
     parser.add_argument("--full", action="store_true", help="as long as the figure is wanted for, instead of a minute")
+    parser.add_argument("--hours", type=float, help="length of the drive of endurance_case")
     parser.add_argument("--sound", action="store_true", help="fail only for what does not depend on the speed of this computer")
     parser.add_argument("--json", action="store_true", help="rows as JSON, one a line")
     parser.add_argument("--input", type=pathlib.Path, help="drive in place of a simulated one")

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """A day of driving, flat out: memory, handles, threads and keys of each service stay as they are after the first hour, and so does its speed.
 
-The short form drives for minutes. map_store and loop_closing keep the map in memory, which grows with the way: a row of their own.
+The short form drives for minutes; --hours H for so long. map_store and loop_closing keep the map in memory, which grows with the way: a row of
+their own.
 """
 
 import os
@@ -14,7 +15,8 @@ RATE_HZ = 37.5
 HOURS_FULL, SHORT_S = 24.0, 100
 SHORT_SCANS = 60000
 FEW = 20
-WARM_UP_SHARE = 0.35  # of the drive; the first hour of a day is less
+WARM_UP_SHARE = 0.35  # of a short drive
+WARM_UP_HOURS = 1.0   # of a long one
 MOST_MORE = {"memory_mb": 8.0, "handles": 1, "threads": 1}  # in the second half of what follows the warm-up; a checkpoint being written is a handle
 MOST_MB_AN_HOUR = 2.0
 MOST_SLOWER = 0.25
@@ -48,7 +50,8 @@ def watch(services, observer, scans, longest_s):
 
 
 def cases(options):
-    scans = int(HOURS_FULL * 3600 * RATE_HZ) if options.full else SHORT_SCANS
+    hours = options.hours or (HOURS_FULL if options.full else None)
+    scans = int(hours * 3600 * RATE_HZ) if hours else SHORT_SCANS
     with chaos.Services(options) as services:
         recorded = options.input or services.simulate("block")
         drive = drives.to_and_fro(recorded, services.folder / "long.log.gz", scans)
@@ -56,8 +59,8 @@ def cases(options):
         observer = services.observe(period_s=1.0)
         services.start("ingest", "--input", drive, "--speed", "max", "--profile", "urban", "--linger")
         chaos.wait_until(lambda: observer.vehicle("vehicle")["tracked"] > 100, "tracks", 120)
-        samples = watch(services, observer, scans, 48 * 3600 if options.full else SHORT_S)
-    settled = [one for one in samples if one["hours"] >= WARM_UP_SHARE * samples[-1]["hours"]]
+        samples = watch(services, observer, scans, 48 * 3600 if hours else SHORT_S)
+    settled = [one for one in samples if one["hours"] >= min(WARM_UP_HOURS, WARM_UP_SHARE * samples[-1]["hours"])]
     half = len(settled) // 2
     slower = 1.0 - speed(settled[half:]) / speed(settled[:half])
     grown = {(service, what): growth(settled, service, what) for service in settled[-1]["services"] for what in ["memory_mb", "handles", "threads"]}

@@ -1,5 +1,7 @@
 #include "services/map_store/map_store_service.hpp"
 
+#include <set>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
@@ -67,6 +69,24 @@ TEST_F(MapStoreOnTheBus, PublishesAllStoredSubmapsAfterARestart) {
   late.assembler = {};
   start<MapStoreService>("map_store");
   EXPECT_TRUE(comes_to([&] { return has_stored(3); }));
+}
+
+TEST_F(MapStoreOnTheBus, FreesTilesThatAllReadersHaveAndReadsThemAgainForAReaderThatJoins) {
+  dds::Reader<slammot_SubmapTile> early(neighbour_, dds::topics::kStoredSubmapTile);
+  start<MapStoreService>("map_store");
+  for (const std::uint32_t id : {0U, 1U, 2U}) finish(example_submap(id));
+  std::set<std::uint64_t> received;
+  std::set<std::uint64_t> freed;
+  ASSERT_TRUE(comes_to([&] {
+    early.take_each([&](const slammot_SubmapTile&,
+                        const dds::SampleInfo& info) { received.insert(info.key_handle); },
+                    [&](const dds::SampleInfo& info) { freed.insert(info.key_handle); });
+    return has_stored(3) && freed.size() >= 3 && freed == received;
+  }));
+  stored.clear();
+  late = {{neighbour_, dds::topics::kStoredSubmapTile}, {}};
+  ASSERT_TRUE(comes_to([&] { return has_stored(3); }));
+  EXPECT_TRUE(slammot::testing::same_submap(stored.at({1}), example_submap(1)));
 }
 
 TEST_F(MapStoreOnTheBus, PublishesTheDescriptionOfTheStoredMap) {
