@@ -47,7 +47,7 @@ class Observer {
         segmented_(participant_, dds::topics::kSegmentedScan, dds::History::kRecorder),
         tracked_(participant_, dds::topics::kTrackedObjects, dds::History::kRecorder),
         statuses_(participant_, dds::topics::kStatus) {
-    read(scans_, [this](const auto& sample, const auto& info) { take(sample, info); });
+    wait_set_.on_data(scans_, [this] { take_scans(); });
     read(localized_, [this](const auto& sample, const auto&) { take(sample); });
     if (with_stages)
       read(segmented_, [this](const auto& sample, const auto&) { note("segmented", sample); });
@@ -79,6 +79,10 @@ class Observer {
     wait_set_.on_data(reader, [&reader, handle] { reader.take_each(handle); });
   }
 
+  void take_scans() {
+    scans_.take_each([this](const auto& sample, const auto& info) { take(sample, info); });
+  }
+
   void take(const slammot_LaserScan& sample, const dds::SampleInfo& info) {
     Vehicle& vehicle = vehicles_[std::string(wire::text(sample.vehicle_id))];
     ++vehicle.scans;
@@ -107,6 +111,8 @@ class Observer {
   template <typename Sample>
   Vehicle& note(const char* stage, const Sample& sample) {
     Vehicle& vehicle = vehicles_[std::string(wire::text(sample.vehicle_id))];
+    // This process may have been interrupted between the turn of the scans and that of the answers.
+    if (!vehicle.published_ns.contains(sample.stamp_ns)) take_scans();
     const auto published = vehicle.published_ns.find(sample.stamp_ns);
     if (published != vehicle.published_ns.end())
       vehicle.latencies_ms[stage].push_back(
