@@ -15,6 +15,7 @@ RATE_HZ = 37.5
 HOURS_FULL, SHORT_S = 24.0, 100
 SHORT_SCANS = 60000
 FEW = 20
+IDLE_S = 30.0  # without tracks: the drive is over
 WARM_UP_SHARE = 0.35  # of a short drive
 WARM_UP_HOURS = 1.0   # of a long one
 MOST_MORE = {"memory_mb": 8.0, "handles": 1, "threads": 1}  # in the second half of what follows the warm-up; a checkpoint being written is a handle
@@ -39,12 +40,14 @@ def slope(samples, service, what):
 
 def watch(services, observer, scans, longest_s):
     """Samples of all services over simulated hours, until the drive ends or its time is over."""
-    samples, end = [], time.monotonic() + longest_s
+    samples, end, most_tracked, advanced_s = [], time.monotonic() + longest_s, 0, time.monotonic()
     while time.monotonic() < end and services.running["ingest", "vehicle", "main"].poll() is None:
         tracked = observer.vehicle("vehicle")["tracked"]
         of_each = {service: resources(process.pid) for (service, *_), process in services.running.items() if process.poll() is None}
         samples.append({"hours": tracked / RATE_HZ / 3600, "time_s": time.monotonic(), "services": of_each})
-        if tracked >= scans - FEW:  # a service may have left one out
+        if tracked > most_tracked:
+            most_tracked, advanced_s = tracked, time.monotonic()
+        if tracked >= scans - FEW or time.monotonic() > advanced_s + IDLE_S:  # a service may have left some out
             break
         time.sleep(1.0)
     return samples
