@@ -13,6 +13,7 @@
 #include "common/config/nearest.hpp"
 #include "common/config/profiles.hpp"
 #include "common/config/reflection.hpp"
+#include "common/config/replaced_settings.hpp"
 
 namespace slammot::config {
 namespace {
@@ -31,8 +32,17 @@ std::optional<std::string> between(const std::string& text, std::string_view bef
   return end == std::string::npos ? std::nullopt : std::optional(text.substr(from, end - from));
 }
 
-/// protobuf's words on a name that a message does not have, in ours and with the nearest name that
-/// it has; other faults as they are.
+/// "; 'scale' took its place", or nothing where none did.
+std::string hint_at_replacement(const pb::Descriptor& message, std::string_view name) {
+  const auto* setting = std::ranges::find_if(kReplacedSettings, [&](const ReplacedSetting& one) {
+    return one.message == message.name() && one.name == name;
+  });
+  if (setting == kReplacedSettings.end()) return {};
+  return "; '" + std::string(setting->replacement) + "' took its place";
+}
+
+/// protobuf's words on a name that a message does not have, in ours and with what replaced it or
+/// else the nearest name that it has; other faults as they are.
 std::string in_our_words(const std::string& fault) {
   const auto message = between(fault, "Message type \"", "\"");
   const auto name = between(fault, "has no field named \"", "\"");
@@ -40,9 +50,12 @@ std::string in_our_words(const std::string& fault) {
       message && name ? pb::DescriptorPool::generated_pool()->FindMessageTypeByName(*message)
                       : nullptr;
   if (descriptor == nullptr || descriptor->field_count() == 0) return fault;
+  const std::string unknown = "no setting is called '" + *name + "' here";
+  const std::string replacement = hint_at_replacement(*descriptor, *name);
+  if (!replacement.empty()) return unknown + replacement;
   std::vector<std::string> known;
   for (int i = 0; i < descriptor->field_count(); ++i) known.push_back(descriptor->field(i)->name());
-  return "no setting is called '" + *name + "' here" + hint_at_nearest(*name, known);
+  return unknown + hint_at_nearest(*name, known);
 }
 
 /// Keeps the first error only: later ones are mostly consequences of it.

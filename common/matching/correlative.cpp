@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "common/matching/search_grid.hpp"
+
 namespace slammot::matching {
 namespace {
 
@@ -13,18 +15,6 @@ using geometry::Pose2;
 using geometry::Vector2;
 
 constexpr double kFull = SmearKernel::kFull;
-constexpr int kHighestLevel = 6;  // beyond 64 cells a maximum is too loose a bound
-
-/// Level whose blocks cover the window in few pieces and whose bounds are still useful.
-int top_level_for(std::int32_t half_width_cells) {
-  int level = 0;
-  while (level < kHighestLevel && (1 << (level + 1)) <= half_width_cells + 1) ++level;
-  return level;
-}
-
-std::int32_t cells_within(double half_width_m, double resolution_m) {
-  return static_cast<std::int32_t>(std::ceil(half_width_m / resolution_m - 1e-9));
-}
 
 /// target(x, y) = max over {x, x + step} x {y, y + step} of source; values beyond the end count as
 /// 0.
@@ -68,13 +58,13 @@ void CorrelativeMatcher::set_target(std::span<const TargetPoint> points,
 
 void CorrelativeMatcher::lay_out(const TargetRegion& region) {
   const double cell_m = config_.resolution_m;
-  largest_shift_ = cells_within(region.largest_shift_m, cell_m);
-  top_level_ = top_level_for(largest_shift_);
+  largest_shift_ = steps_within(region.largest_shift_m, cell_m);
+  top_level_ = useful_level(largest_shift_);
   // A point may lie one shift outside the region and be shifted once more, and a block extends one
   // side further.
   pad_ = 2 * largest_shift_ + (1 << top_level_);
-  const std::int32_t half_columns = cells_within(region.half_width_m, cell_m);
-  const std::int32_t half_rows = cells_within(region.half_height_m, cell_m);
+  const std::int32_t half_columns = steps_within(region.half_width_m, cell_m);
+  const std::int32_t half_rows = steps_within(region.half_height_m, cell_m);
   columns_ = 2 * (half_columns + pad_);
   rows_ = 2 * (half_rows + pad_);
   min_x_m_ = region.centre_m.x() - cell_m * (half_columns + pad_);
@@ -134,9 +124,9 @@ std::vector<Peak> CorrelativeMatcher::search(std::span<const Eigen::Vector2f> po
   if (points_in_source_m.empty() || pyramid_.empty()) return peaks;
   initial_ = target_from_source;
   heading_step_rad_ = heading_step_for(points_in_source_m);
-  const Shifts shifts{std::min(cells_within(window.half_x_m, config_.resolution_m), largest_shift_),
-                      std::min(cells_within(window.half_y_m, config_.resolution_m), largest_shift_),
-                      cells_within(window.half_heading_rad, heading_step_rad_)};
+  const Shifts shifts{std::min(steps_within(window.half_x_m, config_.resolution_m), largest_shift_),
+                      std::min(steps_within(window.half_y_m, config_.resolution_m), largest_shift_),
+                      steps_within(window.half_heading_rad, heading_step_rad_)};
   turn_points(points_in_source_m, target_from_source, shifts);
   collect_top_blocks(shifts);
 

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "common/matching/search_grid.hpp"
 #include "common/matching/smear_kernel.hpp"
 
 namespace slammot::matching {
@@ -15,7 +16,6 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-constexpr int kHighestBound = 6;              // beyond 64 cells a bound is too loose
 constexpr std::uint64_t kTurnWork = 1;        // of rotating one point, in cells read
 constexpr std::int32_t kMostCells = 1 << 20;  // on either side of a grid's origin
 
@@ -23,10 +23,6 @@ constexpr std::int32_t kMostCells = 1 << 20;  // on either side of a grid's orig
 /// the benchmark.
 std::int32_t floored(double cells) {
   return static_cast<std::int32_t>(cells + kMostCells) - kMostCells;
-}
-
-std::int32_t steps_within(double half_width, double step) {
-  return static_cast<std::int32_t>(std::ceil(half_width / step - 1e-9));
 }
 
 }  // namespace
@@ -43,10 +39,7 @@ WideSearch::WideSearch(std::vector<Eigen::Vector2f> points_in_source_m, double c
 }
 
 int WideSearch::useful_level(const SearchWindow& window, double cell_m) {
-  const std::int32_t half_width = steps_within(std::max(window.half_x_m, window.half_y_m), cell_m);
-  int level = 0;
-  while (level < kHighestBound && (1 << (level + 1)) <= half_width + 1) ++level;
-  return level;
+  return matching::useful_level(steps_within(std::max(window.half_x_m, window.half_y_m), cell_m));
 }
 
 std::uint64_t WideSearch::add_target(WideSearchTarget target) {

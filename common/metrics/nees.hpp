@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace slammot::metrics {
+
+/// Errors of one object at closer times are correlated, and are not samples of their own.
+inline constexpr std::int64_t kNeesIntervalNs = 1'000'000'000;
 
 /// Normalized estimation error squared over many samples: Bar-Shalom, Li and Kirubarajan 2001,
 /// section 5.4.

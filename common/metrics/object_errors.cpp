@@ -14,9 +14,6 @@ namespace {
 
 using geometry::Vector2;
 
-constexpr std::int64_t kRowIntervalNs = 1'000'000'000;  // errors of closer rows of one object are
-                                                        // correlated
-
 struct ErrorLists {
   std::size_t rows = 0;
   std::size_t right_class = 0;
@@ -127,7 +124,7 @@ class Collector {
       delays_s_.push_back(static_cast<double>(scene.stamp_ns - history.first_counted_ns) * 1e-9);
     history.is_detected = true;
     const bool is_sample =
-        track.position_covariance_m2 && scene.stamp_ns - history.last_nees_ns >= kRowIntervalNs;
+        track.position_covariance_m2 && scene.stamp_ns - history.last_nees_ns >= kNeesIntervalNs;
     if (is_sample) history.last_nees_ns = scene.stamp_ns;
     for (ErrorLists* lists : {&all_, &classes_[object.object_class],
                               &bands_[band_of(object.world_from_object, scene)]}) {

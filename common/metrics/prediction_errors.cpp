@@ -16,9 +16,7 @@ namespace {
 
 using geometry::Vector2;
 
-constexpr std::int64_t kPredictionIntervalNs = 1'000'000'000;  // errors of closer predictions of
-                                                               // one object are correlated
-constexpr std::int64_t kLongestGapNs = 200'000'000;            // between two true places
+constexpr std::int64_t kLongestGapNs = 200'000'000;  // between two true places
 
 struct Place {
   std::int64_t stamp_ns = 0;
@@ -61,7 +59,7 @@ void add(const PredictedPlace& predicted, const Vector2& true_position_m, std::s
   const Vector2 error_m = predicted.position_m - true_position_m;
   lists.displacement_m.push_back(error_m.norm());
   const auto [last, is_first] = lists.last_nees_ns.try_emplace(object, stamp_ns);
-  if (!is_first && stamp_ns - last->second < kPredictionIntervalNs) return;
+  if (!is_first && stamp_ns - last->second < kNeesIntervalNs) return;
   last->second = stamp_ns;
   lists.nees.push_back(error_m.dot(predicted.covariance_m2.ldlt().solve(error_m)));
 }

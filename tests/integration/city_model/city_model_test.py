@@ -7,36 +7,23 @@ usage: city_model_test.py SLAMMOT
 import gzip
 import json
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
+from program_case import ProgramCase
 
 STREET = pathlib.Path(__file__).with_name("street.textproto")
 SCANS = 14 * 37  # Of the planar scanner, at least.
 
 
-class CityModel(unittest.TestCase):
-    slammot = None
-
+class CityModel(ProgramCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory(prefix="slammot-city-model-")
-        cls.work = pathlib.Path(cls.folder.name)
+        super().setUpClass()
         cls.result = cls.work / "result"
         cls.told = cls.call("run", "--scenario", STREET, "--profile", "urban", "--output", cls.result, "--no-report").stdout
         cls.model = cls.call("model", "--result", cls.result, "--truth", cls.result / "truth", "--points", cls.work / "points.ply").stdout
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    @classmethod
-    def call(cls, *arguments, code=0):
-        done = subprocess.run([cls.slammot, *map(str, arguments)], capture_output=True, text=True, timeout=240)
-        if done.returncode != code:
-            raise AssertionError(f"exit code {done.returncode} for {code}: {done.stdout}{done.stderr}")
-        return done
 
     def figures(self):
         return json.loads((self.result / "model.json").read_text())

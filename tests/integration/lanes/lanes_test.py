@@ -7,34 +7,22 @@ usage: lanes_test.py SLAMMOT
 import json
 import math
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
+from program_case import ProgramCase
 
 KINDS = {"lane", "cycle_lane", "walkway"}
 
 
-class Lanes(unittest.TestCase):
-    slammot = None
-
+class Lanes(ProgramCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory(prefix="slammot-lanes-")
-        cls.result = pathlib.Path(cls.folder.name) / "result"
+        super().setUpClass()
+        cls.result = cls.work / "result"
         cls.call("run", "--scenario", "block", "--output", cls.result, "--no-report", "--quiet")
         cls.file = json.loads((cls.result / "lanes.geojson").read_text())
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    @classmethod
-    def call(cls, *arguments, code=0):
-        done = subprocess.run([cls.slammot, *map(str, arguments)], capture_output=True, text=True, timeout=240)
-        if done.returncode != code:
-            raise AssertionError(f"exit code {done.returncode} for {code}: {done.stdout}{done.stderr}")
-        return done
 
     def test_is_a_collection_of_lines_in_metres_of_the_map(self):
         self.assertEqual((self.file["type"], self.file["frame"], self.file["unit"]), ("FeatureCollection", "map", "m"))
@@ -72,7 +60,7 @@ class Lanes(unittest.TestCase):
         self.assertIn("<svg", (self.result / "lanes.svg").read_text())
 
     def test_a_damaged_file_is_told_in_one_line(self):
-        copy = pathlib.Path(self.folder.name) / "damaged"
+        copy = self.work / "damaged"
         copy.mkdir()
         for name in ("online.tum", "trajectory.tum"):
             (copy / name).write_bytes((self.result / name).read_bytes())

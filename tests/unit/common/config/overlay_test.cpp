@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/config/replaced_settings.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/config/example_stage.hpp"
 
@@ -58,6 +59,20 @@ TEST(Overlay, NamesTheNearestSettingThatThereIs) {
   EXPECT_EQ(fault_of("example {\n  windw_scans: 3\n}"),
             "drive.textproto:2:14: no setting is called 'windw_scans' here; the nearest one is "
             "'window_scans'");
+}
+
+TEST(Overlay, NamesWhatReplacedASettingOfEarlierVersions) {
+  EXPECT_EQ(fault_of("loop_closing { revisit { max_window_m: 12 } }"),
+            "drive.textproto:1:24: no setting is called 'revisit' here; "
+            "'loop_closing { surroundings: building }' took its place");
+}
+
+TEST(Overlay, HasNoneOfTheReplacedSettingsAndTheWholeOfTheirReplacements) {
+  for (const ReplacedSetting& setting : kReplacedSettings) {
+    const std::string replacement(setting.replacement);
+    if (replacement.find("...") == std::string::npos)
+      EXPECT_EQ(fault_of(replacement), "") << setting.name;
+  }
 }
 
 TEST(Overlay, TakesUpTheBaseThatAFileNamesFirst) {

@@ -291,6 +291,22 @@ TEST(Detector, DoesNotLabelACrossingBusAsGround) {
   EXPECT_EQ(bus->label, PointLabel::kMoving);
 }
 
+PointLabel label_of_a_crossing_body(double length_m, const DetectionConfig& config) {
+  Street street;
+  street.known = {kWall};
+  street.unknown = {{{16.25, 0.0, M_PI / 2.0}, length_m, 2.5}};
+  const flow::SegmentedScan scan = detect(street.scan(0, 0), config);
+  const flow::Segment* body = segment_at(scan, {15.0, 0.0}, 0.5);
+  return body == nullptr ? PointLabel::kNoEcho : body->label;
+}
+
+TEST(Detector, LeavesOpenWhetherMovesWhatIsLongerThanARoadUser) {
+  EXPECT_EQ(label_of_a_crossing_body(14.0, {}), PointLabel::kMoving);
+  EXPECT_EQ(label_of_a_crossing_body(20.0, {}), PointLabel::kUnknown);
+  EXPECT_EQ(label_of_a_crossing_body(20.0, {.longest_mover_m = 22.0}), PointLabel::kMoving)
+      << "a tram, where the site has them";
+}
+
 TEST(Detector, DoesNotLabelTheBackOfATruckAsGround) {
   Street street;
   street.known = {kWall};

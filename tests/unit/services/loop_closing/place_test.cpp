@@ -1,5 +1,8 @@
 #include "services/loop_closing/place.hpp"
 
+#include <cmath>
+#include <cstdint>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/floor_plan.hpp"
@@ -39,6 +42,26 @@ TEST(MakePlace, LeavesOutSurfelsSeenThroughOrWithFewEchoes) {
   submap.surfels.push_back({-3.0F, 1.0F, 1.0F, 0.0F, 50.0F});
   submap.surfels.push_back({5.0F, 3.5F, 1.0F, 0.0F, 1.0F});
   EXPECT_EQ(make_place(submap, 0.0, kConfig).surfels.size(), walls);
+}
+
+/// A cell of this evidence [log-odds] at the origin of a submap that has nothing else.
+CellState state_of_a_cell(double log_odds) {
+  constexpr double kStepsPerLogOdds = 16.0;  // of flow::Submap::so_log_odds
+  flow::Submap submap;
+  submap.cell_size_m = 0.2;
+  submap.min_x_m = submap.min_y_m = -0.1;
+  submap.columns = submap.rows = 1;
+  submap.so_log_odds = {static_cast<std::int8_t>(std::lround(kStepsPerLogOdds * log_odds))};
+  return make_place(submap, 0.0, {}).state_at({0.0, 0.0});
+}
+
+TEST(MakePlace, KnowsACellBySevenTenthsOfProbabilityAndNotByLess) {
+  const double seven_tenths = std::log(0.70 / 0.30);
+  EXPECT_EQ(state_of_a_cell(seven_tenths), CellState::kOccupied);
+  EXPECT_EQ(state_of_a_cell(-seven_tenths), CellState::kFree);
+  const double hardly = std::log(0.65 / 0.35);
+  EXPECT_EQ(state_of_a_cell(hardly), CellState::kUnknown);
+  EXPECT_EQ(state_of_a_cell(-hardly), CellState::kUnknown);
 }
 
 TEST(MakePlace, SumsTheDistanceDriven) {

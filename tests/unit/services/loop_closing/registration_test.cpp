@@ -1,6 +1,10 @@
 #include "services/loop_closing/registration.hpp"
 
 #include <cmath>
+#include <random>
+#include <vector>
+
+#include <Eigen/Cholesky>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +78,51 @@ TEST(RegisterSurfels, HasACovarianceOfTheIndependentSurfelsPlusTheFloor) {
             0.01);
   const Eigen::Vector3d floors(0.3 * 0.3, 0.3 * 0.3, 0.04 * 0.04);
   EXPECT_LT((variances(0.2, 0.3, 0.04) - by_walls - floors).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+/// Surfels of a room, 20 cm apart. The walls are displaced by as much for two metres, one sigma
+/// sigma_m; then by something else.
+std::vector<flow::Surfel> displaced_room(double sigma_m, std::mt19937& random) {
+  constexpr int kWithOneError = 10;
+  constexpr double kHalfLengthM = 10.0;
+  constexpr double kHalfWidthM = 8.0;
+  std::normal_distribution<double> normal(0.0, 1.0);
+  std::vector<flow::Surfel> surfels;
+  const auto add_wall = [&](double distance_m, double half_m, bool is_along_x) {
+    double error_m = 0.0;
+    const int surfels_of_wall = static_cast<int>(std::lround(2.0 * half_m / 0.2));
+    for (int i = 0; i < surfels_of_wall; ++i) {
+      if (i % kWithOneError == 0) error_m = sigma_m * normal(random);
+      const auto along_m = static_cast<float>(0.1 + 0.2 * i - half_m);
+      const auto across_m = static_cast<float>(distance_m + error_m);
+      const float inwards = distance_m > 0.0 ? -1.0F : 1.0F;
+      surfels.push_back(is_along_x ? flow::Surfel{along_m, across_m, 0.0F, inwards, 10.0F}
+                                   : flow::Surfel{across_m, along_m, inwards, 0.0F, 10.0F});
+    }
+  };
+  for (const double side : {-1.0, 1.0}) {
+    add_wall(side * kHalfWidthM, kHalfLengthM, true);
+    add_wall(side * kHalfLengthM, kHalfWidthM, false);
+  }
+  return surfels;
+}
+
+TEST(RegisterSurfels, HasAnHonestCovarianceWhereTwoMetresOfWallShareAnError) {
+  RegistrationConfig config;
+  config.position_floor_m = config.heading_floor_rad = 0.0;
+  std::mt19937 random(1);
+  const SurfelIndex target(displaced_room(0.0, random), 1.0);
+  constexpr int kRuns = 200;
+  double nees = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    const std::vector<flow::Surfel> source = displaced_room(config.surfel_sigma_m, random);
+    const Registration registration = register_surfels(source, target, Pose2::identity(), config);
+    const Pose2& pose = registration.target_from_source.pose;
+    const Eigen::Vector3d error(pose.x_m, pose.y_m, pose.heading_rad);
+    nees += error.dot(registration.target_from_source.covariance.ldlt().solve(error)) / kRuns;
+  }
+  EXPECT_GT(nees, 2.0);
+  EXPECT_LT(nees, 4.0);  // 3 are expected
 }
 
 TEST(RegisterSurfels, HasAWideCovarianceAlongACorridor) {

@@ -53,6 +53,20 @@ TEST(Confirmation, HasNotProvenToMoveWhileItsSpeedCannotBeToldFromNone) {
   EXPECT_TRUE(is_confirmable(track, config));
 }
 
+TEST(Confirmation, WantsAWayThatNoSwayingBranchGoes) {
+  const TrackingConfig config;
+  Track track;
+  track.existence.score = kConfirmScore;
+  track.existence.hits = evidence_limits(config).least_hits;
+  track.existence.motion = {kLeastMovedVotes, kLeastMovedVotes, 0.0};  // votes are divided
+  track.history.birth.R = 1e-4 * Eigen::Matrix2d::Identity();
+  track.kinematics.estimate.covariance = 1e-4 * filters::Matrix6::Identity();
+  track.kinematics.estimate.mean << 0.25, 0.0, 1.0, 0.0, 0.0, 0.0;
+  EXPECT_FALSE(is_confirmable(track, config));
+  track.kinematics.estimate.mean(0) = 0.4;
+  EXPECT_TRUE(is_confirmable(track, config));
+}
+
 TEST(Confirmation, HasMovedByOneVoteIfByTheMapItHasComeOutOfNowhere) {
   const TrackingConfig config;
   const Track track = out_from_behind_others(config);

@@ -113,5 +113,17 @@ TEST(Refiltering, IsForgottenButForItsEnd) {
   EXPECT_EQ(track.history.observations[39].stamp_ns, 99 * kPeriodNs);
 }
 
+TEST(Refiltering, DoesNotCountTheShiftOfACentreAsTravel) {
+  Track track = begun_as_a_front(3);
+  track.existence.travel.anchor_m = track.position_m() - Vector2d(0.2, 0.4);
+  Belief belief = belief_of(track);
+  belief.estimate.mean.head<2>() += Vector2d(1.5, -0.7);
+  const Vector2d place_m = belief.estimate.mean.head<2>();
+  set_belief(track, belief);
+  ASSERT_LT((track.position_m() - place_m).norm(), 1e-9);
+  EXPECT_LT((track.position_m() - track.existence.travel.anchor_m - Vector2d(0.2, 0.4)).norm(),
+            1e-9);
+}
+
 }  // namespace
 }  // namespace slammot::tracking
