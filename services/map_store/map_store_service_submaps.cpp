@@ -39,9 +39,10 @@ bool StoredSubmaps::write(const flow::Submap& submap) {
   return all_written;
 }
 
+/// While older ones are sent, it waits for its turn: loop closing adds submaps in their order.
 void StoredSubmaps::publish(const flow::Submap& submap) {
-  due_.erase(submap.submap_id);
-  write(submap);
+  if (due_.empty()) write(submap);
+  else due_.insert(submap.submap_id);
 }
 
 void StoredSubmaps::withdraw() {
