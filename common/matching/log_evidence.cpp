@@ -91,36 +91,56 @@ bool is_within_reach(const Pose2& by_odometry) {
   return way_m < kMostFactor * kReachM || way_m > kAnotherUnit_m;
 }
 
+struct Peak {
+  Pose2 target_from_source;
+  double score = 0.0;
+};
+
 /// Search window for any turn up to 1.5 rad of either sign, and for the way in any direction.
-std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pair,
-                                 const AssumedBeams& beams, const LogCorrection& correction) {
+std::optional<Peak> best_match(CorrelativeMatcher& matcher, const std::vector<float>& target,
+                               const std::vector<float>& source, const AssumedBeams& beams,
+                               const LogCorrection& correction, double turn_rad) {
   constexpr std::size_t kTargetPoints = 360;
   constexpr std::size_t kSourcePoints = 90;
   constexpr std::size_t kFewestPoints = 20;
-  const Pose2 by_odometry = motion_by_odometry(pair, correction);
-  if (!is_within_reach(by_odometry)) return std::nullopt;
-  const auto target = points_of(pair.first, beams, correction.range_unit_m, kTargetPoints);
-  const auto source = points_of(pair.second, beams, correction.range_unit_m, kSourcePoints);
-  if (target.size() < kFewestPoints || source.size() < kFewestPoints) return std::nullopt;
+  const auto target_m = points_of(target, beams, correction.range_unit_m, kTargetPoints);
+  const auto source_m = points_of(source, beams, correction.range_unit_m, kSourcePoints);
+  if (target_m.size() < kFewestPoints || source_m.size() < kFewestPoints) return std::nullopt;
   std::vector<TargetPoint> stamped;
   float reach_m = 5.0F;
-  for (const Eigen::Vector2f& point : target) {
+  for (const Eigen::Vector2f& point : target_m) {
     stamped.push_back({point.x(), point.y(), 1.0F});
     reach_m = std::max({reach_m, std::abs(point.x()), std::abs(point.y())});
   }
   const double half_m = static_cast<double>(reach_m) + 0.5;
   matcher.set_target(stamped,
                      {.half_width_m = half_m, .half_height_m = half_m, .largest_shift_m = kReachM});
-  MatchedPair matched{.by_odometry = by_odometry, .by_scans = {}};
-  const double turn_rad = std::abs(matched.by_odometry.heading_rad);
-  const auto peaks = matcher.search(source, Pose2::identity(),
+  const auto peaks = matcher.search(source_m, Pose2::identity(),
                                     {kReachM, kReachM, std::clamp(2.3 * turn_rad, 0.3, 1.6)});
   if (peaks.empty()) return std::nullopt;
-  matched.by_scans = refined(matcher, source, peaks.front().target_from_source.pose);
-  matched.score = peaks.front().score;
-  matched.first_scan = pair.first_scan;
-  matched.second_scan = pair.second_scan;
-  return matched;
+  return Peak{refined(matcher, source_m, peaks.front().target_from_source.pose),
+              peaks.front().score};
+}
+
+/// The scan behind sees what the one ahead sees, not the other way round: a scanner that moves
+/// away from what it sees has most of the second scan in unseen space, and a corridor then matches
+/// best where it did not move. The clearly better match of both is taken.
+std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pair,
+                                 const AssumedBeams& beams, const LogCorrection& correction) {
+  constexpr double kClearlyBetter = 0.02;  // than by the grid's chance
+  const Pose2 by_odometry = motion_by_odometry(pair, correction);
+  if (!is_within_reach(by_odometry)) return std::nullopt;
+  const double turn_rad = std::abs(by_odometry.heading_rad);
+  const auto ahead = best_match(matcher, pair.first, pair.second, beams, correction, turn_rad);
+  const auto behind = best_match(matcher, pair.second, pair.first, beams, correction, turn_rad);
+  if (!ahead && !behind) return std::nullopt;
+  const bool takes_behind = behind && (!ahead || behind->score > ahead->score + kClearlyBetter);
+  return MatchedPair{
+      .by_odometry = by_odometry,
+      .by_scans = takes_behind ? inverse(behind->target_from_source) : ahead->target_from_source,
+      .score = takes_behind ? behind->score : ahead->score,
+      .first_scan = pair.first_scan,
+      .second_scan = pair.second_scan};
 }
 
 std::vector<MatchedPair> match_all(std::span<const ScanPair> pairs, const AssumedBeams& beams,

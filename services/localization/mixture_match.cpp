@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "services/localization/keyframe_priors.hpp"
 #include "services/localization/map_agreement.hpp"
 
 namespace slammot::localization {
@@ -40,6 +41,7 @@ constexpr std::size_t kPoses = 4;           // that a search tells apart,
 constexpr std::size_t kPosesAnywhere = 12;  // and where any step is looked for: the search counts
                                             // points on surfels, so that poses into a known room
                                             // come before the one that looks into an unseen one
+constexpr double kMostEchoes = 1000.0;      // weight limit: more than a scan has
 constexpr std::size_t kStepsToKnow = 10;    // before it is known how well scans usually fit
 
 /// Share of a scan's points that say on their own whether they match: those of scans shortly after
@@ -86,7 +88,16 @@ double dynamics(const Step& step, const Step& by_velocity) {
 }
 
 MixtureMatch::MixtureMatch(const LocalizerConfig& config)
-    : config_(config), search_(config, kPoses), search_anywhere_(config, kPosesAnywhere) {}
+    : config_(config),
+      search_(config, kPoses),
+      search_anywhere_(config, kPosesAnywhere),
+      config_of_scans_(config.match),
+      surfels_(grids::window_around(geometry::Vector2::Zero(), 2.0 * config.echoes.match_range_m,
+                                    config.map.surfel_size_m),
+               kMostEchoes) {
+  config_of_scans_.unproven_share = 1.0;
+  config_of_scans_.proven_after_m = 0.0;
+}
 
 /// Every explanation at the pose that odometry leads to: what a pose close by would say of them
 /// differs little.
@@ -143,10 +154,32 @@ std::size_t MixtureMatch::likeliest_step(const StepToExplain& scan, std::size_t 
   return best;
 }
 
+void MixtureMatch::map_points(const ScanPoints& points) {
+  surfels_.clear();
+  for (const matching::MatchPoint& point : points.matched()) surfels_.add(point.in_base_m);
+}
+
+/// A scanner that moves away from what it sees has half of its echoes where the map has none yet:
+/// in a corridor the map alone says that the vehicle stands. What it saw before it sees again. Of
+/// scans shortly after each other the map tells enough, and traffic moves along with both.
+MixtureMatch::Overlap MixtureMatch::overlap(const StepToExplain& scan,
+                                            const matching::PointToLineResult& registered) {
+  const Step& first = scan.steps.front();
+  Overlap found{.on_map = matching::fit_of(registered, config_.match.robust_scale_m)};
+  if (first.usual_duration_s < sensing::kRareScans_s) return found;
+  const geometry::UncertainPose2 prior =
+      about(geometry::inverse(registered.map_from_base.pose) * first.odom_from_base_before.pose);
+  found.before_on_scan = matching::fit_of(match_scans_.match(scan.points.matched_before(), surfels_,
+                                                             prior, prior.pose, config_of_scans_),
+                                          config_.match.robust_scale_m);
+  return found;
+}
+
 /// Registers from one pose under a wide prediction, and compares every explanation there with the
 /// best so far.
-void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
-                           const geometry::Pose2& start, ScanMatcher& matcher, Best& best) const {
+MixtureMatch::Overlap MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
+                                            const geometry::Pose2& start, ScanMatcher& matcher,
+                                            Best& best) {
   const Step& prediction = scan.steps[wide];
   const Step evidence = by_scan_alone(scan.steps.front());
   matching::PointToLineResult registered = matcher.register_from(
@@ -157,8 +190,8 @@ void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
       sensing::scan_optimum(prediction.prior(), pose, registered.scan_information);
   const double contradicted_share =
       agreement(scan.points, pose, scan.map.evidence(), config_.map).contradicting_share();
-  const double fits_share =
-      matching::fit_of(registered, config_.match.robust_scale_m) - contradicted_share;
+  const Overlap found = overlap(scan, registered);
+  const double fits_share = std::max(found.on_map, found.before_on_scan) - contradicted_share;
   const double fit = config_.belief.share_nats * scan.points.evidence_share() *
                      independent_share(scan.steps.front()) *
                      weight_of_evidence(scan.steps.front()) * fits_share;
@@ -173,6 +206,22 @@ void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
     best.contradicted_share = contradicted_share;
     best.log_posterior = log_posterior;
   }
+  return found;
+}
+
+/// Where the vehicle backs away from what it sees, the scan before is looked for on this one, too.
+std::vector<geometry::Pose2> MixtureMatch::poses_around(const StepToExplain& scan,
+                                                        const geometry::UncertainPose2& prior,
+                                                        bool backs_away, PoseSearch& search) const {
+  std::vector<geometry::Pose2> poses =
+      search.poses_around(prior, scan.points.matched(), scan.map.surfels());
+  if (!backs_away) return poses;
+  const geometry::Pose2& before = scan.steps.front().odom_from_base_before.pose;
+  for (const geometry::Pose2& now_from_before :
+       search.poses_around({geometry::inverse(prior.pose) * before, prior.covariance},
+                           scan.points.matched_before(), surfels_))
+    poses.push_back(before * geometry::inverse(now_from_before));
+  return poses;
 }
 
 MixtureMatch::Best MixtureMatch::nothing_yet() {
@@ -186,14 +235,15 @@ void MixtureMatch::around(const StepToExplain& scan, std::size_t explanation, Sc
                           Best& best) {
   const Step& prediction = scan.steps[explanation];
   scan.take_points(prediction);
+  map_points(scan.points);
   const geometry::UncertainPose2 prior = prediction.prior();
-  compare(scan, explanation, prior.pose, matcher, best);
+  const Overlap as_predicted = compare(scan, explanation, prior.pose, matcher, best);
   if (!is_vague(prior, config_)) return;
   ++searches_;
   const bool is_anywhere = explanation == kWheels && prediction.source == StepSource::kReach;
   PoseSearch& search = is_anywhere ? search_anywhere_ : search_;
-  for (const geometry::Pose2& pose :
-       search.poses_around(prior, scan.points.matched(), scan.map.surfels()))
+  const bool backs_away = as_predicted.before_on_scan > as_predicted.on_map;
+  for (const geometry::Pose2& pose : poses_around(scan, prior, backs_away, search))
     compare(scan, explanation, pose, matcher, best);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "common/grids/surfel_map.hpp"
 #include "common/matching/point_to_line.hpp"
 #include "common/sensing/odometry_belief.hpp"
 #include "services/localization/local_map.hpp"
@@ -66,13 +67,26 @@ class MixtureMatch {
   void around(const StepToExplain& scan, std::size_t explanation, ScanMatcher& matcher, Best& best);
   ExplainedStep concluded(const StepToExplain& scan, const Best& best,
                           const sensing::ExplanationWeights& weights, ScanMatcher& matcher) const;
-  void compare(const StepToExplain& scan, std::size_t wide, const geometry::Pose2& start,
-               ScanMatcher& matcher, Best& best) const;
+  void map_points(const ScanPoints& points);
+  /// In [0, 1].
+  struct Overlap {
+    double on_map = 0.0;          ///< Share of the scan that lies on the map,
+    double before_on_scan = 0.0;  ///< and of the scan before that lies on this one.
+  };
+  Overlap overlap(const StepToExplain& scan, const matching::PointToLineResult& registered);
+  Overlap compare(const StepToExplain& scan, std::size_t wide, const geometry::Pose2& start,
+                  ScanMatcher& matcher, Best& best);
+  std::vector<geometry::Pose2> poses_around(const StepToExplain& scan,
+                                            const geometry::UncertainPose2& prior, bool backs_away,
+                                            PoseSearch& search) const;
 
   LocalizerConfig config_;
   PoseSearch search_;
   PoseSearch search_anywhere_;
   std::uint64_t searches_ = 0;
+  matching::PointToLineConfig config_of_scans_;
+  grids::SurfelMap surfels_;  ///< Of the scan, in its base.
+  matching::PointToLineMatcher match_scans_;
 };
 
 }  // namespace slammot::localization

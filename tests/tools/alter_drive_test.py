@@ -153,6 +153,18 @@ class Stamps(AlteredDrive):
         self.assertEqual(sorted(stamps(FLASER), reverse=True), stamps(alter.stamps_backwards(FLASER)))
 
 
+class DrivenBackwards(AlteredDrive):
+    def test_has_the_last_scan_first_and_time_runs_forwards(self):
+        altered = alter.driven_backwards(FLASER)
+        self.assertEqual([scan.index for scan in reversed(FLASER.scans())], [scan.index for scan in altered.scans()])
+        self.assertEqual(sorted(stamps(altered)), stamps(altered))
+        self.assertEqual(("#", "a", "comment"), altered.records[0].words)
+
+    def test_takes_every_motion_back(self):
+        back = [carmen_drive.inverse(motion) for motion in reversed(motions(FLASER))]
+        self.assert_poses_near(back, motions(alter.driven_backwards(FLASER)), 1e-5)
+
+
 class FewerScans(AlteredDrive):
     def test_every_third_leaves_the_first_of_three_and_all_odom_lines(self):
         altered = alter.every_nth(FLASER, 3)

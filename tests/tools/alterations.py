@@ -92,6 +92,13 @@ def cut(drive, from_s, to_s, no_time_passes):
     return dataclasses.replace(drive.replaced(moved), removed=drive.removed + ((start + from_s, start + to_s),))
 
 
+def driven_backwards(drive):
+    """From its end to its start: the vehicle backs away from what the scanner sees. Lines that are neither scans nor odometry come first."""
+    mirrored = stamps_backwards(drive).records
+    others = [record for record in mirrored if isinstance(record, Other)]
+    return dataclasses.replace(drive, records=(*others, *(record for record in reversed(mirrored) if not isinstance(record, Other))))
+
+
 # ---- what a scan says --------------------------------------------------------------------------------------------------------
 
 

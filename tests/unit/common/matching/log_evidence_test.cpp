@@ -93,6 +93,45 @@ TEST(WeighLog, CorrectsNothingOfASoundLog) {
   EXPECT_NEAR(evidence.turn_scale, 1.0, 0.1);
 }
 
+/// Range in a corridor 2 m wide, with niches every 7 m.
+float range_in_corridor_m(double x_m, double direction_rad) {
+  const double dx = std::cos(direction_rad);
+  const double dy = std::sin(direction_rad);
+  for (double range = 0.05; range < 8.0; range += 0.01) {
+    const double px = x_m + range * dx;
+    const double py = range * dy;
+    const double into_niche_m = px - 7.0 * std::floor(px / 7.0);
+    if (std::abs(py) > (into_niche_m < 2.0 ? 2.0 : 1.0)) return static_cast<float>(range);
+  }
+  return std::numeric_limits<float>::quiet_NaN();
+}
+
+/// Of steps of this length, as a robot takes them that logs a scan a metre.
+double way_scale_in_corridor(double step_m) {
+  std::vector<ScanPair> pairs;
+  OdometryCheck check;
+  for (int i = 0; i < 20; ++i) {
+    const double x_m = 7.0 * i + 4.0;  // the next niche is 3 m ahead
+    ScanPair pair;
+    for (std::size_t beam = 0; beam < kBeams; ++beam) {
+      const double angle_rad = -0.5 * pi + pi * static_cast<double>(beam) / (kBeams - 1);
+      pair.first.push_back(range_in_corridor_m(x_m, angle_rad));
+      pair.second.push_back(range_in_corridor_m(x_m + step_m, angle_rad));
+    }
+    pair.first_recorded = {x_m, 0.0, 0.0};
+    pair.second_recorded = {x_m + step_m, 0.0, 0.0};
+    check.add(pair.first_recorded);
+    pairs.push_back(pair);
+  }
+  return weigh_log(pairs, {-0.5 * pi, pi / static_cast<double>(kBeams - 1), 0.0}, check, 1.0)
+      .way_scale;
+}
+
+TEST(WeighLog, TellsTheWayOfAVehicleThatBacksAwayFromWhatItSees) {
+  EXPECT_NEAR(way_scale_in_corridor(1.0), 1.0, 0.1);
+  EXPECT_NEAR(way_scale_in_corridor(-1.0), 1.0, 0.1);
+}
+
 TEST(WeighLog, FindsBeamsThatGoClockwise) {
   LogCorrection expected;
   expected.reverses_beams = true;

@@ -1,8 +1,10 @@
 #include "services/localization/mixture_match.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -205,6 +207,63 @@ TEST_F(MixtureMatchTest, WithoutOdometryLooksForAnyStepUntilTheUsualShareIsKnown
   weights_ = {0.0, 0.0, 0.0, 1.0};
   const ExplainedStep explained = explain(truth, steps_without_odometry(usual), corridor);
   EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.1));
+}
+
+/// A scanner that looks ahead by half a turn and 8 m far, in a corridor with a niche from 3 m
+/// ahead of the origin on, and a pillar in each metre.
+sensing::LaserScan scan_in_corridor(const Pose2& odom_from_base) {
+  slammot::testing::World corridor{{{-40.0, -1.0}, {40.0, -1.0}}, {{-40.0, 1.0}, {3.0, 1.0}},
+                                   {{3.0, 1.0}, {3.0, 2.5}},      {{3.0, 2.5}, {6.0, 2.5}},
+                                   {{6.0, 2.5}, {6.0, 1.0}},      {{6.0, 1.0}, {40.0, 1.0}}};
+  for (int x_m = -20; x_m < 20; ++x_m) corridor.push_back({{x_m + 0.3, -1.0}, {x_m + 0.3, -0.8}});
+  sensing::LaserScan scan;
+  scan.scanner.first_beam_rad = -0.5 * std::numbers::pi;
+  scan.scanner.beam_step_rad = std::numbers::pi / 180.0;
+  scan.scanner.max_range_m = 8.0;
+  for (std::size_t beam = 0; beam < 181; ++beam)
+    scan.range_m.push_back(static_cast<float>(slammot::testing::range_m(
+        corridor, odom_from_base.translation_m(),
+        odom_from_base.heading_rad + sensing::beam_angle_rad(scan.scanner, beam))));
+  return scan;
+}
+
+/// What is matched of the scan.
+void take(const sensing::LaserScan& scan, const Pose2& odom_from_base, ScanPoints& points) {
+  points.deskew(scan, 0.0, 0.0);
+  points.select(scan, odom_from_base, {});
+}
+
+TEST_F(MixtureMatchTest, BelievesWheelsThatBackAwayFromWhatTheScannerSees) {
+  const Pose2 start{0.03, 0.02, 0.0};
+  const Pose2 behind{-0.97, 0.02, 0.0};
+  ScanPoints points(config_);
+  points.begin_scan();
+  take(scan_in_corridor(start), start, points);
+  LocalMap map(config_.map, geometry::Vector2::Zero());
+  std::vector<grids::Ray> rays;
+  for (const matching::MatchPoint& point : points.matched())
+    rays.push_back({start * point.in_base_m, grids::Echo::kStationary});
+  map.integrate(0, start.translation_m(), rays, std::numbers::pi / 180.0);
+  points.begin_scan();
+  const sensing::LaserScan scan = scan_in_corridor(behind);
+  StepMixture steps{step_to(behind, 0.01, 0.003, StepExplanation::kWheels),
+                    step_to(behind, 0.04, 0.012, StepExplanation::kRoughWheels),
+                    step_to(behind, 0.9, 0.1, StepExplanation::kOther)};
+  for (Step& step : steps) {
+    step.usual_duration_s = 2.0;  // a scan a metre
+    step.odom_from_base_before.pose = start;
+  }
+  steps.front().wheels_in_doubt = true;
+  take(scan, behind, points);
+  ScanMatcher matcher(config_);
+  MixtureMatch mixture(config_);
+  const ExplainedStep explained =
+      mixture.explain({steps, weights_, 0.9, history_, points, map,
+                       [&](const Step& step) { take(scan, step.after.odom_from_base, points); }},
+                      matcher);
+  EXPECT_EQ(explained.step.explanation, StepExplanation::kWheels);
+  EXPECT_NEAR(explained.registered.map_from_base.pose.x_m, behind.x_m, 0.1);
+  EXPECT_GT(weight_of(explained, StepExplanation::kWheels), 0.5);
 }
 
 TEST_F(MixtureMatchTest, WeighsExplanationsToASumOfOne) {
