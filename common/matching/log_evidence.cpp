@@ -127,7 +127,7 @@ std::optional<Peak> best_match(CorrelativeMatcher& matcher, const std::vector<fl
 /// best where it did not move. The clearly better match of both is taken.
 std::optional<MatchedPair> match(CorrelativeMatcher& matcher, const ScanPair& pair,
                                  const AssumedBeams& beams, const LogCorrection& correction) {
-  constexpr double kClearlyBetter = 0.02;  // than by the grid's chance
+  constexpr double kClearlyBetter = 0.05;
   const Pose2 by_odometry = motion_by_odometry(pair, correction);
   if (!is_within_reach(by_odometry)) return std::nullopt;
   const double turn_rad = std::abs(by_odometry.heading_rad);

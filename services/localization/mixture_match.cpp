@@ -41,6 +41,7 @@ constexpr std::size_t kPoses = 4;           // that a search tells apart,
 constexpr std::size_t kPosesAnywhere = 12;  // and where any step is looked for: the search counts
                                             // points on surfels, so that poses into a known room
                                             // come before the one that looks into an unseen one
+constexpr double kClearlyMore = 0.1;        // of the points
 constexpr double kMostEchoes = 1000.0;      // weight limit: more than a scan has
 constexpr std::size_t kStepsToKnow = 10;    // before it is known how well scans usually fit
 
@@ -159,27 +160,37 @@ void MixtureMatch::map_points(const ScanPoints& points) {
   for (const matching::MatchPoint& point : points.matched()) surfels_.add(point.in_base_m);
 }
 
+MixtureMatch::Overlap MixtureMatch::overlap(const StepToExplain& scan,
+                                            const matching::PointToLineResult& registered) {
+  const geometry::UncertainPose2 prior = about(geometry::inverse(registered.map_from_base.pose) *
+                                               scan.steps.front().odom_from_base_before.pose);
+  const matching::PointToLineResult before_on_scan = match_scans_.match(
+      scan.points.matched_before(), surfels_, prior, prior.pose, config_of_scans_);
+  return {matching::fit_of(registered, config_.match.robust_scale_m),
+          matching::fit_of(before_on_scan, config_.match.robust_scale_m)};
+}
+
 /// A scanner that moves away from what it sees has half of its echoes where the map has none yet:
 /// in a corridor the map alone says that the vehicle stands. What it saw before it sees again. Of
 /// scans shortly after each other the map tells enough, and traffic moves along with both.
-MixtureMatch::Overlap MixtureMatch::overlap(const StepToExplain& scan,
-                                            const matching::PointToLineResult& registered) {
+bool MixtureMatch::backs_away(const StepToExplain& scan, ScanMatcher& matcher) {
   const Step& first = scan.steps.front();
-  Overlap found{.on_map = matching::fit_of(registered, config_.match.robust_scale_m)};
-  if (first.usual_duration_s < sensing::kRareScans_s) return found;
-  const geometry::UncertainPose2 prior =
-      about(geometry::inverse(registered.map_from_base.pose) * first.odom_from_base_before.pose);
-  found.before_on_scan = matching::fit_of(match_scans_.match(scan.points.matched_before(), surfels_,
-                                                             prior, prior.pose, config_of_scans_),
-                                          config_.match.robust_scale_m);
-  return found;
+  if (first.usual_duration_s < sensing::kRareScans_s) return false;
+  const Step& likely =
+      first.source == StepSource::kReach ? scan.steps[scan.steps.size() - kLikelySteps] : first;
+  scan.take_points(likely);
+  map_points(scan.points);
+  const geometry::UncertainPose2 prior = likely.prior();
+  const Overlap found =
+      overlap(scan, matcher.register_from(prior.pose, prior,
+                                          {scan.points.matched(), scan.map.surfels(), likely}));
+  return found.before_on_scan > found.on_map + kClearlyMore;
 }
 
 /// Registers from one pose under a wide prediction, and compares every explanation there with the
 /// best so far.
-MixtureMatch::Overlap MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
-                                            const geometry::Pose2& start, ScanMatcher& matcher,
-                                            Best& best) {
+void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
+                           const geometry::Pose2& start, ScanMatcher& matcher, Best& best) {
   const Step& prediction = scan.steps[wide];
   const Step evidence = by_scan_alone(scan.steps.front());
   matching::PointToLineResult registered = matcher.register_from(
@@ -190,8 +201,9 @@ MixtureMatch::Overlap MixtureMatch::compare(const StepToExplain& scan, std::size
       sensing::scan_optimum(prediction.prior(), pose, registered.scan_information);
   const double contradicted_share =
       agreement(scan.points, pose, scan.map.evidence(), config_.map).contradicting_share();
-  const Overlap found = overlap(scan, registered);
-  const double fits_share = std::max(found.on_map, found.before_on_scan) - contradicted_share;
+  double fits_share = matching::fit_of(registered, config_.match.robust_scale_m);
+  if (*backs_away_) fits_share = std::max(fits_share, overlap(scan, registered).before_on_scan);
+  fits_share -= contradicted_share;
   const double fit = config_.belief.share_nats * scan.points.evidence_share() *
                      independent_share(scan.steps.front()) *
                      weight_of_evidence(scan.steps.front()) * fits_share;
@@ -206,16 +218,15 @@ MixtureMatch::Overlap MixtureMatch::compare(const StepToExplain& scan, std::size
     best.contradicted_share = contradicted_share;
     best.log_posterior = log_posterior;
   }
-  return found;
 }
 
 /// Where the vehicle backs away from what it sees, the scan before is looked for on this one, too.
 std::vector<geometry::Pose2> MixtureMatch::poses_around(const StepToExplain& scan,
                                                         const geometry::UncertainPose2& prior,
-                                                        bool backs_away, PoseSearch& search) const {
+                                                        PoseSearch& search) const {
   std::vector<geometry::Pose2> poses =
       search.poses_around(prior, scan.points.matched(), scan.map.surfels());
-  if (!backs_away) return poses;
+  if (!*backs_away_) return poses;
   const geometry::Pose2& before = scan.steps.front().odom_from_base_before.pose;
   for (const geometry::Pose2& now_from_before :
        search.poses_around({geometry::inverse(prior.pose) * before, prior.covariance},
@@ -233,17 +244,17 @@ MixtureMatch::Best MixtureMatch::nothing_yet() {
 
 void MixtureMatch::around(const StepToExplain& scan, std::size_t explanation, ScanMatcher& matcher,
                           Best& best) {
+  if (!backs_away_) backs_away_ = backs_away(scan, matcher);
   const Step& prediction = scan.steps[explanation];
   scan.take_points(prediction);
-  map_points(scan.points);
+  if (*backs_away_) map_points(scan.points);
   const geometry::UncertainPose2 prior = prediction.prior();
-  const Overlap as_predicted = compare(scan, explanation, prior.pose, matcher, best);
+  compare(scan, explanation, prior.pose, matcher, best);
   if (!is_vague(prior, config_)) return;
   ++searches_;
   const bool is_anywhere = explanation == kWheels && prediction.source == StepSource::kReach;
   PoseSearch& search = is_anywhere ? search_anywhere_ : search_;
-  const bool backs_away = as_predicted.before_on_scan > as_predicted.on_map;
-  for (const geometry::Pose2& pose : poses_around(scan, prior, backs_away, search))
+  for (const geometry::Pose2& pose : poses_around(scan, prior, search))
     compare(scan, explanation, pose, matcher, best);
 }
 
@@ -266,6 +277,7 @@ ExplainedStep MixtureMatch::explain(const StepToExplain& questioned, ScanMatcher
 
 ExplainedStep MixtureMatch::explain_as_weighed(const StepToExplain& scan, ScanMatcher& matcher) {
   searches_ = 0;
+  backs_away_.reset();
   const Step& by_wheels = scan.steps.front();
   if (by_wheels.source == StepSource::kReach) return explain_without_odometry(scan, matcher);
   const bool is_unsure =

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "common/grids/surfel_map.hpp"
 #include "common/matching/point_to_line.hpp"
@@ -74,16 +75,18 @@ class MixtureMatch {
     double before_on_scan = 0.0;  ///< and of the scan before that lies on this one.
   };
   Overlap overlap(const StepToExplain& scan, const matching::PointToLineResult& registered);
-  Overlap compare(const StepToExplain& scan, std::size_t wide, const geometry::Pose2& start,
-                  ScanMatcher& matcher, Best& best);
+  bool backs_away(const StepToExplain& scan, ScanMatcher& matcher);
+  void compare(const StepToExplain& scan, std::size_t wide, const geometry::Pose2& start,
+               ScanMatcher& matcher, Best& best);
   std::vector<geometry::Pose2> poses_around(const StepToExplain& scan,
-                                            const geometry::UncertainPose2& prior, bool backs_away,
+                                            const geometry::UncertainPose2& prior,
                                             PoseSearch& search) const;
 
   LocalizerConfig config_;
   PoseSearch search_;
   PoseSearch search_anywhere_;
   std::uint64_t searches_ = 0;
+  std::optional<bool> backs_away_;  ///< Of the scan at hand; none: not judged yet.
   matching::PointToLineConfig config_of_scans_;
   grids::SurfelMap surfels_;  ///< Of the scan, in its base.
   matching::PointToLineMatcher match_scans_;

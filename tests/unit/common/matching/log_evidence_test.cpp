@@ -111,7 +111,7 @@ double way_scale_in_corridor(double step_m) {
   std::vector<ScanPair> pairs;
   OdometryCheck check;
   for (int i = 0; i < 20; ++i) {
-    const double x_m = 7.0 * i + 4.0;  // the next niche is 3 m ahead
+    const double x_m = 7.0 * i + 5.0;  // the next niche is 2 m ahead
     ScanPair pair;
     for (std::size_t beam = 0; beam < kBeams; ++beam) {
       const double angle_rad = -0.5 * pi + pi * static_cast<double>(beam) / (kBeams - 1);
