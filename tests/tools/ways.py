@@ -63,7 +63,7 @@ FURTHER = (
     Way("no-echo-nan", "no echo written as nan", lambda drive, seed: alter.no_echo_as(drive, "nan")),
     Way("upside-down", "scanner upside down, unsaid", lambda drive, seed: alter.upside_down(drive), r"revers|clockwise|mirror|upside"),
     Way("backwards", "scanner mounted backwards", lambda drive, seed: alter.mounted_backwards(drive)),
-    Way("driven-backwards", "the drive from its end to its start", lambda drive, seed: alter.driven_backwards(drive)),
+    Way("driven-backwards", "the drive from its end to its start (a sweep runs backwards, too)", lambda drive, seed: alter.driven_backwards(drive)),
     Way("beams-half", "every second beam", lambda drive, seed: alter.every_nth_beam(drive, 2), takes_information=True),
     Way("beams-quarter", "every fourth beam", lambda drive, seed: alter.every_nth_beam(drive, 4), takes_information=True),
     Way("odometry-millimetres", "odometry in millimetres", lambda drive, seed: alter.odometry_scaled(drive, 1000.0), r"millimet"),
