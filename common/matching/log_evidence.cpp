@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <Eigen/LU>
 
 #include "common/matching/correlative.hpp"
+#include "common/matching/wall_bend.hpp"
 
 namespace slammot::matching {
 namespace {
@@ -154,12 +156,6 @@ std::vector<MatchedPair> match_all(std::span<const ScanPair> pairs, const Assume
   return matched;
 }
 
-double mean_score(const std::vector<MatchedPair>& matched, std::size_t tried) {
-  double sum = 0.0;
-  for (const MatchedPair& pair : matched) sum += pair.score;
-  return tried > 0 ? sum / static_cast<double>(tried) : 0.0;
-}
-
 std::vector<MatchedPair> turning(const std::vector<MatchedPair>& matched) {
   std::vector<MatchedPair> some;
   std::copy_if(matched.begin(), matched.end(), std::back_inserter(some),
@@ -231,26 +227,39 @@ AssumedBeams with_field(const AssumedBeams& beams, double factor) {
   return {beams.first_beam_rad * factor, beams.beam_step_rad * factor, beams.laser_heading_rad};
 }
 
-/// A wrong field of view scales the turns by scans. An accepted factor must give a field of view of
-/// existing scanners and must make scans fit each other better.
+/// How much walls bend with this layout.
+double bend_with(std::span<const ScanPair> pairs, const AssumedBeams& beams, double unit_m) {
+  constexpr std::size_t kFewestWalls = 20;
+  std::vector<std::vector<float>> scans_m;
+  for (const ScanPair& pair : pairs) {
+    scans_m.push_back(pair.first);
+    for (float& range : scans_m.back()) range *= static_cast<float>(unit_m);
+  }
+  const WallBend found = wall_bend(scans_m, beams.first_beam_rad, beams.beam_step_rad);
+  return found.windows < kFewestWalls ? std::numeric_limits<double>::infinity()
+                                      : std::abs(found.bend);
+}
+
+/// A wrong field of view scales the turns by scans, and bends walls. The turns raise the question,
+/// and walls answer it: odometry's turns may err, too, and two scans that differ by a rotation
+/// match with any field of view. An accepted factor must give a field of view of existing scanners.
 double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams,
                     const LogCorrection& correction, const std::vector<MatchedPair>& as_stated) {
-  constexpr double kBetterScore = 0.02;
+  constexpr double kTurnsAgree = 0.87;
+  constexpr double kStraighter = 0.5;
   const double scale = std::abs(turn_scale(turning(as_stated)));
-  if (pairs.empty() || !(scale > 0.0) || (scale > 0.8 && scale < 1.25)) return 1.0;
+  if (pairs.empty() || !(scale > 0.0) || (scale > kTurnsAgree && scale < 1.0 / kTurnsAgree))
+    return 1.0;
   const double stated_rad =
       std::abs(beams.beam_step_rad) * static_cast<double>(pairs.front().first.size());
   double best = 1.0;
-  double best_score = mean_score(as_stated, pairs.size()) + kBetterScore;
+  double least_bend = kStraighter * bend_with(pairs, beams, correction.range_unit_m);
   for (const double degrees : {90.0, 120.0, 180.0, 240.0, 270.0, 360.0}) {
     const double factor = degrees / 180.0 * pi / stated_rad;
-    if (std::abs(factor * scale - 1.0) > 0.25) continue;
-    const auto matched = match_all(pairs, with_field(beams, factor), correction);
-    const double corrected_scale = std::abs(turn_scale(turning(matched)));
-    const double score = mean_score(matched, pairs.size());
-    if (std::abs(corrected_scale - 1.0) > 0.2 || score < best_score) continue;
+    const double bend = bend_with(pairs, with_field(beams, factor), correction.range_unit_m);
+    if (bend >= least_bend) continue;
     best = factor;
-    best_score = score;
+    least_bend = bend;
   }
   return best;
 }

@@ -42,6 +42,7 @@ constexpr std::size_t kPosesAnywhere = 12;  // and where any step is looked for:
                                             // points on surfels, so that poses into a known room
                                             // come before the one that looks into an unseen one
 constexpr double kClearlyMore = 0.1;        // of the points
+constexpr double kBacks_m = 0.1;            // way out of the view
 constexpr double kMostEchoes = 1000.0;      // weight limit: more than a scan has
 constexpr std::size_t kStepsToKnow = 10;    // before it is known how well scans usually fit
 
@@ -67,6 +68,15 @@ double weight_of_evidence(const Step& step) {
 double log_likelihood_of(const Step& step, const geometry::Pose2& optimum,
                          const matching::PointToLineResult& registered) {
   return sensing::log_marginal_likelihood(step.prior(), optimum, registered.scan_information);
+}
+
+/// Way of the laser towards the middle of what it sees.
+double moved_into_view_m(const ScanPoints& points, const geometry::Pose2& before_from_now) {
+  const geometry::Vector2& laser_m = points.laser_in_base_m();
+  geometry::Vector2 sum_m = geometry::Vector2::Zero();
+  for (const matching::MatchPoint& point : points.matched()) sum_m += point.in_base_m - laser_m;
+  const geometry::Vector2 moved_m = laser_m - geometry::inverse(before_from_now) * laser_m;
+  return sum_m.isZero() ? 0.0 : moved_m.dot(sum_m.normalized());
 }
 
 }  // namespace
@@ -179,8 +189,11 @@ bool MixtureMatch::backs_away(const StepToExplain& scan, ScanMatcher& matcher) {
   const Step& likely =
       first.source == StepSource::kReach ? scan.steps[scan.steps.size() - kLikelySteps] : first;
   scan.take_points(likely);
-  map_points(scan.points);
   const geometry::UncertainPose2 prior = likely.prior();
+  const geometry::Pose2 before_from_now =
+      geometry::inverse(first.odom_from_base_before.pose) * prior.pose;
+  if (moved_into_view_m(scan.points, before_from_now) > -kBacks_m) return false;
+  map_points(scan.points);
   const Overlap found =
       overlap(scan, matcher.register_from(prior.pose, prior,
                                           {scan.points.matched(), scan.map.surfels(), likely}));

@@ -230,6 +230,18 @@ TEST(WeighLog, FindsTheFieldOfView) {
   EXPECT_FALSE(correction.reverses_beams);
 }
 
+TEST(WeighLog, FindsTheFieldOfViewByWallsWhereOdometryTurnsTooMuchOrTooLittle) {
+  for (const double factor : {0.8, 1.15, 1.3}) {
+    const auto turns_more = redriven([=](const Pose2& step) {
+      return Pose2{step.x_m, step.y_m, factor * step.heading_rad};
+    });
+    EXPECT_NEAR(evidence_of({.pose = turns_more, .field_rad = 0.5 * pi}).correction.field_factor,
+                0.5, 0.02)
+        << factor;
+    EXPECT_EQ(evidence_of({.pose = turns_more}).correction.field_factor, 1.0) << factor;
+  }
+}
+
 TEST(WeighLog, FindsAScannerThatLooksBackwards) {
   EXPECT_NEAR(std::abs(evidence_of({.looks_rad = pi}).correction.laser_turn_rad), pi, 1e-9);
 }
