@@ -93,15 +93,15 @@ bool is_within_reach(const Pose2& by_odometry) {
   return way_m < kMostFactor * kReachM || way_m > kAnotherUnit_m;
 }
 
-struct Peak {
+struct PairPeak {
   Pose2 target_from_source;
   double score = 0.0;
 };
 
 /// Search window for any turn up to 1.5 rad of either sign, and for the way in any direction.
-std::optional<Peak> best_match(CorrelativeMatcher& matcher, const std::vector<float>& target,
-                               const std::vector<float>& source, const AssumedBeams& beams,
-                               const LogCorrection& correction, double turn_rad) {
+std::optional<PairPeak> best_match(CorrelativeMatcher& matcher, const std::vector<float>& target,
+                                   const std::vector<float>& source, const AssumedBeams& beams,
+                                   const LogCorrection& correction, double turn_rad) {
   constexpr std::size_t kTargetPoints = 360;
   constexpr std::size_t kSourcePoints = 90;
   constexpr std::size_t kFewestPoints = 20;
@@ -120,8 +120,8 @@ std::optional<Peak> best_match(CorrelativeMatcher& matcher, const std::vector<fl
   const auto peaks = matcher.search(source_m, Pose2::identity(),
                                     {kReachM, kReachM, std::clamp(2.3 * turn_rad, 0.3, 1.6)});
   if (peaks.empty()) return std::nullopt;
-  return Peak{refined(matcher, source_m, peaks.front().target_from_source.pose),
-              peaks.front().score};
+  return PairPeak{refined(matcher, source_m, peaks.front().target_from_source.pose),
+                  peaks.front().score};
 }
 
 /// The scan behind sees what the one ahead sees, not the other way round: a scanner that moves
@@ -227,14 +227,19 @@ AssumedBeams with_field(const AssumedBeams& beams, double factor) {
   return {beams.first_beam_rad * factor, beams.beam_step_rad * factor, beams.laser_heading_rad};
 }
 
-/// How much walls bend with this layout.
-double bend_with(std::span<const ScanPair> pairs, const AssumedBeams& beams, double unit_m) {
-  constexpr std::size_t kFewestWalls = 20;
+/// First scans of the pairs, in metres.
+std::vector<std::vector<float>> first_scans_m(std::span<const ScanPair> pairs, double unit_m) {
   std::vector<std::vector<float>> scans_m;
   for (const ScanPair& pair : pairs) {
     scans_m.push_back(pair.first);
     for (float& range : scans_m.back()) range *= static_cast<float>(unit_m);
   }
+  return scans_m;
+}
+
+/// How much walls bend with this layout; infinite if few walls are seen.
+double bend_with(std::span<const std::vector<float>> scans_m, const AssumedBeams& beams) {
+  constexpr std::size_t kFewestWalls = 20;
   const WallBend found = wall_bend(scans_m, beams.first_beam_rad, beams.beam_step_rad);
   return found.windows < kFewestWalls ? std::numeric_limits<double>::infinity()
                                       : std::abs(found.bend);
@@ -253,10 +258,11 @@ double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams,
   const double stated_rad =
       std::abs(beams.beam_step_rad) * static_cast<double>(pairs.front().first.size());
   double best = 1.0;
-  double least_bend = kStraighter * bend_with(pairs, beams, correction.range_unit_m);
+  const auto scans_m = first_scans_m(pairs, correction.range_unit_m);
+  double least_bend = kStraighter * bend_with(scans_m, beams);
   for (const double degrees : {90.0, 120.0, 180.0, 240.0, 270.0, 360.0}) {
     const double factor = degrees / 180.0 * pi / stated_rad;
-    const double bend = bend_with(pairs, with_field(beams, factor), correction.range_unit_m);
+    const double bend = bend_with(scans_m, with_field(beams, factor));
     if (bend >= least_bend) continue;
     best = factor;
     least_bend = bend;
