@@ -15,8 +15,10 @@ void set_recorder_history(dds_qos_t* qos) {
 
 QosPointer reader_qos(const TopicInfo& info, History history) {
   if (history == History::kRestart) return make_restart_reader_qos(qos_profile(info.flow));
-  QosPointer qos = make_reader_qos(qos_profile(info.flow));
-  if (history == History::kRecorder) set_recorder_history(qos.get());
+  const bool comes_late = history == History::kRestartedRecorder;
+  QosPointer qos = comes_late ? make_restart_reader_qos(qos_profile(info.flow))
+                              : make_reader_qos(qos_profile(info.flow));
+  if (history == History::kRecorder || comes_late) set_recorder_history(qos.get());
   return qos;
 }
 

@@ -16,6 +16,7 @@ enum class History {
   kRecorder,  ///< The last 10,000 samples a key, for a reader that needs all.
   kRestart,   ///< As many as the writer keeps for restarts, also from before this reader: a service
               ///< that was restarted does what the process before has left.
+  kRestartedRecorder,  ///< Both: all from now on, and what the writer kept for restarts.
 };
 
 struct ReaderCounters {

@@ -7,7 +7,7 @@
 namespace slammot::files {
 namespace {
 
-constexpr const char* kBegin = "slammot-journal-3";
+constexpr const char* kBegin = "slammot-journal-4";
 constexpr char kEndOfLine = ';';  // marks a completely written line
 
 std::ostream& operator<<(std::ostream& to, const geometry::Pose2& pose) {
@@ -15,6 +15,12 @@ std::ostream& operator<<(std::ostream& to, const geometry::Pose2& pose) {
 }
 std::istream& operator>>(std::istream& from, geometry::Pose2& pose) {
   return from >> pose.x_m >> pose.y_m >> pose.heading_rad;
+}
+std::ostream& operator<<(std::ostream& to, const DriveName& drive) {
+  return to << drive.map_id.value << ' ' << drive.odom_id.value;
+}
+std::istream& operator>>(std::istream& from, DriveName& drive) {
+  return from >> drive.map_id.value >> drive.odom_id.value;
 }
 std::istream& operator>>(std::istream& from, geometry::Vector2& vector) {
   return from >> vector.x() >> vector.y();
@@ -69,6 +75,12 @@ flow::TrackedObjects tracked_objects_of(std::istream& line) {
   return tracked;
 }
 
+DriveName drive_of(std::istream& line) {
+  DriveName drive;
+  line >> drive;
+  return drive;
+}
+
 JournalScan scan_of(std::istream& line) {
   JournalScan scan;
   line >> scan.drive_id >> scan.sequence >> scan.stamp_ns >> scan.scanner_id;
@@ -77,9 +89,11 @@ JournalScan scan_of(std::istream& line) {
 
 }  // namespace
 
-void RunJournal::begin(flow::MapId map_id, flow::OdomId odom_id) {
+void RunJournal::begin(const DriveName& drive, std::span<const DriveName> ended) {
   stream_ = std::ofstream(file_, std::ios::trunc);
-  stream_ << kBegin << ' ' << map_id.value << ' ' << odom_id.value << '\n' << std::flush;
+  stream_ << kBegin << ' ' << drive << '\n';
+  for (const DriveName& one : ended) stream_ << (Line() << 'e' << one).str();
+  stream_ << std::flush;
 }
 
 void RunJournal::resume() {
@@ -125,8 +139,7 @@ std::optional<RunJournal::Content> RunJournal::read(const std::filesystem::path&
   std::ifstream stream(file);
   std::string mark;
   Content content;
-  if (!(stream >> mark >> content.map_id.value >> content.odom_id.value) || mark != kBegin)
-    return std::nullopt;
+  if (!(stream >> mark >> content.drive) || mark != kBegin) return std::nullopt;
   for (std::string text; std::getline(stream, text);) {
     if (!text.ends_with(kEndOfLine)) continue;
     std::istringstream line(text);
@@ -135,6 +148,7 @@ std::optional<RunJournal::Content> RunJournal::read(const std::filesystem::path&
     const auto keep = [&](auto& values, auto value) {
       if (line) values.push_back(std::move(value));
     };
+    if (kind == 'e') keep(content.ended, drive_of(line));
     if (kind == 's') keep(content.scans, scan_of(line));
     if (kind == 'l') keep(content.localized_scans, localized_scan_of(line));
     if (kind == 't') keep(content.tracked_objects, tracked_objects_of(line));

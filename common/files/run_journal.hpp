@@ -4,12 +4,20 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "common/files/run_record.hpp"
 
 namespace slammot::files {
+
+/// What localization calls a drive.
+struct DriveName {
+  flow::MapId map_id;
+  flow::OdomId odom_id;
+  auto operator<=>(const DriveName&) const = default;
+};
 
 /// A scan received from the bus.
 struct JournalScan {
@@ -26,8 +34,8 @@ class RunJournal {
   /// Appends to the file; nothing is written before begin() or resume().
   explicit RunJournal(std::filesystem::path file) : file_(std::move(file)) {}
 
-  /// Clears the file.
-  void begin(flow::MapId map_id, flow::OdomId odom_id);
+  /// Clears the file. ended: drives before this one.
+  void begin(const DriveName& drive, std::span<const DriveName> ended = {});
   /// Continues the file.
   void resume();
   /// Removes the journal of a finished drive.
@@ -38,8 +46,8 @@ class RunJournal {
   void add(const flow::TrackedObjects& tracked);
 
   struct Content {
-    flow::MapId map_id;
-    flow::OdomId odom_id;
+    DriveName drive;
+    std::vector<DriveName> ended;  ///< Drives before this one.
     std::vector<JournalScan> scans;
     std::vector<flow::LocalizedScan> localized_scans;   ///< Without their beams.
     std::vector<flow::TrackedObjects> tracked_objects;  ///< Fields of a track's row only.

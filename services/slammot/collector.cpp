@@ -24,6 +24,9 @@ constexpr auto kRepeatCommand = 500ms;
 constexpr auto kIngestTimeout = 30s;  ///< Time without a heartbeat of ingest after which a drive
                                       ///< restored from a journal has ended.
 
+/// More than the 100 scans of the bus's history can hold, unless drives are shorter than a second.
+constexpr std::size_t kEndedDrives = 16;
+
 /// Unique over restarts in containers, where each process has the same id.
 std::string unique_name() {
   return "collector-" + std::to_string(getpid()) + "-" +
@@ -32,6 +35,11 @@ std::string unique_name() {
 
 /// True for services that publish scans.
 bool is_source(std::string_view service) { return service == "ingest" || service == "simulator"; }
+
+/// A restarted collector also takes what was published while it was down.
+dds::History history_after(const std::optional<files::RunJournal::Content>& restored) {
+  return restored ? dds::History::kRestartedRecorder : dds::History::kRecorder;
+}
 
 bool is_set(const wire::ServiceStatus& status, std::string_view counter) {
   for (const wire::Counter& one : status.counters) {
@@ -44,12 +52,13 @@ bool is_set(const wire::ServiceStatus& status, std::string_view counter) {
 
 Collector::Collector(const CollectorOptions& options)
     : vehicle_id_(options.vehicle_id),
+      restored_(files::RunJournal::read(options.journal)),
       participant_({options.domain_id, "slammot-collector", options.dds_config}),
       wait_set_(participant_),
       laser_scans_(participant_, dds::topics::kLaserScan, dds::History::kRecorder),
-      localized_scans_(participant_, dds::topics::kLocalizedScan, dds::History::kRecorder),
-      tracked_objects_(participant_, dds::topics::kTrackedObjects, dds::History::kRecorder),
-      segmented_scans_(participant_, dds::topics::kSegmentedScan, dds::History::kRecorder),
+      localized_scans_(participant_, dds::topics::kLocalizedScan, history_after(restored_)),
+      tracked_objects_(participant_, dds::topics::kTrackedObjects, history_after(restored_)),
+      segmented_scans_(participant_, dds::topics::kSegmentedScan, history_after(restored_)),
       scan_labels_(participant_, dds::topics::kScanLabels, dds::History::kRecorder),
       stored_tiles_(participant_, dds::topics::kStoredSubmapTile),
       constraints_(participant_, dds::topics::kConstraint),
@@ -62,16 +71,18 @@ Collector::Collector(const CollectorOptions& options)
       requester_(unique_name()),
       last_progress_(Clock::now()) {
   if (!options.journal.empty()) journal_.emplace(options.journal);
-  if (const auto content = files::RunJournal::read(options.journal)) restore(*content);
+  if (restored_) restore(*restored_);
+  restored_.reset();
   read(laser_scans_, [this](const auto& sample) { take(sample); });
   read(localized_scans_, [this](const auto& sample) { take(sample); });
   read(tracked_objects_, [this](const auto& sample) { take(sample); });
   read(segmented_scans_, [this](const auto& sample) {
-    if (const auto scan = wire::decode(sample)) records_[scan->map_id].add(*scan);
+    const auto scan = wire::decode(sample);
+    if (scan && !has_ended({scan->map_id, scan->odom_id})) records_[scan->map_id].add(*scan);
   });
   read(scan_labels_, [this](const auto& sample) {
     const auto labels = wire::decode(sample);
-    if (labels && map_id_) records_[*map_id_].add(*labels);
+    if (labels && drive_) records_[drive_->map_id].add(*labels);
   });
   read(stored_tiles_, [this](const auto& sample) { take(sample); });
   read(constraints_, [this](const auto& sample) {
@@ -109,8 +120,9 @@ bool Collector::wait(std::chrono::milliseconds longest) {
 
 void Collector::restore(const files::RunJournal::Content& content) {
   is_restored_ = true;
-  map_id_ = content.map_id;
-  odom_id_ = content.odom_id;
+  is_on_restored_drive_ = true;
+  drive_ = content.drive;
+  ended_.assign(content.ended.begin(), content.ended.end());
   for (const files::JournalScan& scan : content.scans) record_stamp(scan);
   gate_.take_up(drives_.drives());
   for (const flow::LocalizedScan& scan : content.localized_scans) {
@@ -132,8 +144,19 @@ void Collector::record_stamp(const files::JournalScan& scan) {
   if (drive == localization::DriveWatch::Scan::kOfNewDrive) {
     stamps_by_sequence_.clear();
     seen_at_.clear();
+    is_on_restored_drive_ = false;
   }
   stamps_by_sequence_[scan.scanner_id].emplace(scan.sequence, scan.stamp_ns);
+}
+
+/// Records the stamp of a scan that passed while this process was down: only what became of it is
+/// in the history of the bus.
+void Collector::record_missed_stamp(const flow::LocalizedScan& scan) {
+  const auto drive = drives_.drives().find(scan.scanner_id);
+  if (!is_on_restored_drive_ || drive == drives_.drives().end()) return;
+  if (!stamps_by_sequence_[scan.scanner_id].emplace(scan.sequence, scan.stamp_ns).second) return;
+  if (journal_)
+    journal_->add(files::JournalScan{scan.scanner_id, drive->second, scan.sequence, scan.stamp_ns});
 }
 
 void Collector::admit(const localization::DriveGate::Verdict& verdict) {
@@ -142,7 +165,7 @@ void Collector::admit(const localization::DriveGate::Verdict& verdict) {
     const files::JournalScan scan{admitted.scan.scanner.scanner_id, admitted.drive_id,
                                   admitted.scan.sequence, admitted.scan.stamp_ns};
     record_stamp(scan);
-    if (journal_ && map_id_) journal_->add(scan);
+    if (journal_ && drive_) journal_->add(scan);
   }
 }
 
@@ -157,16 +180,19 @@ void Collector::take(const slammot_LaserScan& sample) {
 }
 
 /// Discards the results of the previous drive.
-void Collector::begin_drive(flow::MapId map_id, flow::OdomId odom_id) {
-  if (map_id_ == map_id) records_[map_id].forget_drive();
-  else if (map_id_) records_.erase(*map_id_);
-  map_id_ = map_id;
-  odom_id_ = odom_id;
+void Collector::begin_drive(const files::DriveName& drive) {
+  if (drive_) {
+    if (drive_->map_id == drive.map_id) records_[drive.map_id].forget_drive();
+    else records_.erase(drive_->map_id);
+    ended_.push_back(*drive_);
+    if (ended_.size() > kEndedDrives) ended_.pop_front();
+  }
+  drive_ = drive;
   last_localized_ns_.reset();
   last_tracked_ns_.reset();
   submap_in_use_.reset();
   if (!journal_) return;
-  journal_->begin(map_id, odom_id);
+  journal_->begin(drive, std::vector(ended_.begin(), ended_.end()));
   for (const auto& [scanner_id, stamps] : stamps_by_sequence_) {
     for (const auto& [sequence, stamp_ns] : stamps)
       journal_->add(
@@ -177,8 +203,10 @@ void Collector::begin_drive(flow::MapId map_id, flow::OdomId odom_id) {
 void Collector::take(const slammot_LocalizedScan& sample) {
   const auto scan = wire::decode(sample);
   if (!scan) return;
-  if (map_id_ != scan->map_id || odom_id_ != scan->odom_id)
-    begin_drive(scan->map_id, scan->odom_id);
+  const files::DriveName drive{scan->map_id, scan->odom_id};
+  if (has_ended(drive)) return;
+  if (drive_ != drive) begin_drive(drive);
+  record_missed_stamp(*scan);
   records_[scan->map_id].add(*scan);
   if (journal_) journal_->add(*scan);
   last_localized_ns_ = std::max(scan->stamp_ns, last_localized_ns_.value_or(scan->stamp_ns));
@@ -188,7 +216,7 @@ void Collector::take(const slammot_LocalizedScan& sample) {
 
 void Collector::take(const slammot_TrackedObjects& sample) {
   const auto objects = wire::decode(sample);
-  if (!objects || objects->map_id != map_id_ || objects->odom_id != odom_id_) return;
+  if (!objects || files::DriveName{objects->map_id, objects->odom_id} != drive_) return;
   records_[objects->map_id].add(*objects);
   if (journal_) journal_->add(*objects);
   last_tracked_ns_ = std::max(objects->stamp_ns, last_tracked_ns_.value_or(objects->stamp_ns));
@@ -221,6 +249,10 @@ void Collector::take(const slammot_ServiceStatus& sample) {
   if (is_source(status->name.service))
     is_log_finished_[status->name.instance] = is_set(*status, "log_finished");
   status_by_service_[status->name.service] = std::move(*status);
+}
+
+bool Collector::has_ended(const files::DriveName& drive) const {
+  return std::ranges::find(ended_, drive) != ended_.end();
 }
 
 bool Collector::is_log_finished() const {
@@ -259,10 +291,11 @@ void Collector::request_finished_submap() {
 
 bool Collector::is_complete() const {
   if (!is_submap_finished_) return false;
-  if (!map_id_ || !submap_in_use_) return true;
-  const auto record = records_.find(*map_id_);
+  if (!drive_ || !submap_in_use_) return true;
+  const flow::MapId map_id = drive_->map_id;
+  const auto record = records_.find(map_id);
   return record->second.submaps().contains(*submap_in_use_) &&
-         placed_submaps_.contains({*map_id_, *submap_in_use_});
+         placed_submaps_.contains({map_id, *submap_in_use_});
 }
 
 bool Collector::finish(std::chrono::seconds patience) {
@@ -291,7 +324,7 @@ std::vector<std::int64_t> Collector::scan_stamps_ns() const {
 }
 
 files::RunRecord Collector::record(const std::vector<std::int64_t>& scan_stamps_ns) const {
-  const auto made = map_id_ ? records_.find(*map_id_) : records_.end();
+  const auto made = drive_ ? records_.find(drive_->map_id) : records_.end();
   files::RunRecord record = made == records_.end() ? files::RunRecord() : made->second;
   for (const std::int64_t stamp_ns : scan_stamps_ns) record.add_scan(stamp_ns);
   return record;

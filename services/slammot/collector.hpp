@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -79,15 +80,18 @@ class Collector {
   void take(const slammot_GraphCorrection& part);
   void take(const slammot_ServiceStatus& status);
   void restore(const files::RunJournal::Content& content);
-  void begin_drive(flow::MapId map_id, flow::OdomId odom_id);
+  void begin_drive(const files::DriveName& drive);
   void record_stamp(const files::JournalScan& scan);
+  void record_missed_stamp(const flow::LocalizedScan& scan);
   void admit(const localization::DriveGate::Verdict& verdict);
+  bool has_ended(const files::DriveName& drive) const;
   bool is_log_finished() const;
   bool is_last_scan_tracked() const;
   void request_finished_submap();
   bool is_complete() const;
 
   std::string vehicle_id_;
+  std::optional<files::RunJournal::Content> restored_;  ///< What the process before has left.
   dds::Participant participant_;
   dds::WaitSet wait_set_;
   dds::Reader<slammot_LaserScan> laser_scans_;
@@ -106,13 +110,15 @@ class Collector {
   wire::GraphCorrectionAssembler correction_assembler_;
 
   std::optional<files::RunJournal> journal_;
-  bool is_restored_ = false;      ///< From a journal.
+  bool is_restored_ = false;  ///< From a journal.
+  bool is_on_restored_drive_ = false;
   localization::DriveGate gate_;  ///< Keeps strays of other drives out.
   localization::DriveWatch drives_;
   /// Of the current drive, by scanner.
   std::map<std::string, std::map<std::uint32_t, std::int64_t>> stamps_by_sequence_;
-  std::optional<flow::MapId> map_id_;  ///< Of the latest localized scan.
-  flow::OdomId odom_id_;               ///< Drive of the latest localized scan.
+  std::optional<files::DriveName> drive_;  ///< Of the latest localized scan.
+  /// Before this one: the history of the bus may begin with them.
+  std::deque<files::DriveName> ended_;
   /// Results by map: the bus also delivers retained data of earlier maps.
   std::map<flow::MapId, files::RunRecord> records_;
   /// Reception times of scans without tracks, by stamp.

@@ -1,5 +1,8 @@
 #include "common/files/run_journal.hpp"
 
+#include <array>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.hpp"
@@ -17,7 +20,7 @@ struct RunJournalTest : ::testing::Test {
 
   void write_three_lines() {
     RunJournal journal(file);
-    journal.begin({7}, {70});
+    journal.begin({{7}, {70}}, std::array{DriveName{{7}, {69}}});
     journal.add(JournalScan{"front", 3, 41, 1'700'000'000'123'456'789});
     journal.add(localized);
     journal.add(tracked);
@@ -28,8 +31,8 @@ TEST_F(RunJournalTest, GivesBackTheRowsThatWereWritten) {
   write_three_lines();
   const auto content = RunJournal::read(file);
   ASSERT_TRUE(content);
-  EXPECT_EQ(content->map_id, flow::MapId{7});
-  EXPECT_EQ(content->odom_id, flow::OdomId{70});
+  EXPECT_EQ(content->drive, (DriveName{{7}, {70}}));
+  EXPECT_EQ(content->ended, (std::vector{DriveName{{7}, {69}}}));
   ASSERT_EQ(content->scans.size(), 1U);
   EXPECT_EQ(content->scans.front().scanner_id, "front");
   EXPECT_EQ(content->scans.front().stamp_ns, 1'700'000'000'123'456'789);
@@ -86,8 +89,8 @@ TEST_F(RunJournalTest, GoesOnBehindALineThatWasBeingWritten) {
 TEST_F(RunJournalTest, ForgetsAnEarlierMap) {
   write_three_lines();
   RunJournal journal(file);
-  journal.begin({8}, {80});
-  EXPECT_EQ(RunJournal::read(file)->map_id, flow::MapId{8});
+  journal.begin({{8}, {80}});
+  EXPECT_EQ(RunJournal::read(file)->drive.map_id, flow::MapId{8});
   EXPECT_TRUE(RunJournal::read(file)->scans.empty());
 }
 

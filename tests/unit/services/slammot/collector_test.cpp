@@ -70,6 +70,7 @@ struct CollectorOnTheBus : ::testing::Test {
     scan.range_m = {5.0F};
     flow::LocalizedScan localized;
     localized.stamp_ns = scan.stamp_ns;
+    localized.sequence = sequence;
     localized.scanner_id = "front";
     localized.map_id = map_id;
     localized.odom_id = odom_id;
@@ -187,6 +188,32 @@ TEST_F(CollectorOnTheBus, ContinuesAfterACrash) {
   ASSERT_TRUE(comes_to([this] { return localized_count() == 4; }));
   EXPECT_THAT(collector->scan_stamps_ns(),
               ::testing::ElementsAre(0, kPeriodNs, 2 * kPeriodNs, 3 * kPeriodNs));
+}
+
+TEST_F(CollectorOnTheBus, TakesWhatWasPublishedWhileItWasDown) {
+  start();
+  for (const std::uint32_t sequence : {0U, 1U}) drive(sequence, 1, {7});
+  ASSERT_TRUE(comes_to(
+      [this] { return localized_count() == 2 && collector->scan_stamps_ns().size() == 2; }));
+  collector.reset();
+  for (const std::uint32_t sequence : {2U, 3U}) drive(sequence, 1, {7});
+  start();
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 4; }));
+  EXPECT_THAT(collector->scan_stamps_ns(),
+              ::testing::ElementsAre(0, kPeriodNs, 2 * kPeriodNs, 3 * kPeriodNs));
+}
+
+TEST_F(CollectorOnTheBus, LeavesAnEndedDriveInTheHistoryOfTheBus) {
+  start();
+  for (const std::uint32_t sequence : {5U, 6U}) drive(sequence, 1, {7}, {1});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 2; }));
+  drive(0, 2, {7}, {2});
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 1; }));
+  collector.reset();
+  drive(1, 2, {7}, {2});
+  start();
+  ASSERT_TRUE(comes_to([this] { return localized_count() == 2; }));
+  EXPECT_EQ(collector->last_localized_ns(), kPeriodNs);
 }
 
 TEST_F(CollectorOnTheBus, DoesNotMixADriveFromBeforeItsCrashWithANewOne) {
