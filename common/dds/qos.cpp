@@ -15,8 +15,8 @@ namespace {
 /// 1 s old by the data's clock, and older at many times the recorded speed; at 37.5 Hz 10 s.
 constexpr std::int32_t kSensorRestartDepth = 400;
 /// Since the journal of tracking (0.25 s), the lease of a leader (0.2 s), the start of a process,
-/// and a second one that fails meanwhile; at 37.5 Hz 2.7 s.
-constexpr std::int32_t kEstimateRestartDepth = 100;
+/// and a second one that fails meanwhile; at 37.5 Hz 5.3 s.
+constexpr std::int32_t kEstimateRestartDepth = 200;
 
 }  // namespace
 

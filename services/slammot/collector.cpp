@@ -24,7 +24,7 @@ constexpr auto kRepeatCommand = 500ms;
 constexpr auto kIngestTimeout = 30s;  ///< Time without a heartbeat of ingest after which a drive
                                       ///< restored from a journal has ended.
 
-/// More than the 100 scans of the bus's history can hold, unless drives are shorter than a second.
+/// More than the 200 scans of the bus's history can hold, unless drives are shorter than a second.
 constexpr std::size_t kEndedDrives = 16;
 
 /// Unique over restarts in containers, where each process has the same id.

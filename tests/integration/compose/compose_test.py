@@ -176,7 +176,7 @@ def test_containers_may_die(root, work, drive, truth, reference):
 
 
 def test_the_collector_may_die(root, work, drive, truth, reference):
-    # The bus keeps 100 scans, 1.3 s at this speed; scans beyond that have the pose between.
+    # The bus keeps 200 scans, 2.7 s at this speed; scans beyond that have the pose between.
     print("containers at twice the recorded speed; the collector crashes")
     with Containers(root, work / "collector_disturbed", drive, "2") as containers:
         containers.wait_until_driving(10)
