@@ -252,6 +252,7 @@ double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams,
                     const LogCorrection& correction, const std::vector<MatchedPair>& as_stated) {
   constexpr double kTurnsAgree = 0.87;
   constexpr double kStraighter = 0.5;
+  constexpr double kSameField = 0.02;  // 361 beams of half a degree are 180 degrees
   const double scale = std::abs(turn_scale(turning(as_stated)));
   if (pairs.empty() || !(scale > 0.0) || (scale > kTurnsAgree && scale < 1.0 / kTurnsAgree))
     return 1.0;
@@ -262,6 +263,7 @@ double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams,
   double least_bend = kStraighter * bend_with(scans_m, beams);
   for (const double degrees : {90.0, 120.0, 180.0, 240.0, 270.0, 360.0}) {
     const double factor = degrees / 180.0 * pi / stated_rad;
+    if (std::abs(factor - 1.0) < kSameField) continue;
     const double bend = bend_with(scans_m, with_field(beams, factor));
     if (bend >= least_bend) continue;
     best = factor;

@@ -242,6 +242,16 @@ TEST(WeighLog, FindsTheFieldOfViewByWallsWhereOdometryTurnsTooMuchOrTooLittle) {
   }
 }
 
+TEST(WeighLog, KeepsAFieldOfViewThatIsOneBeamWiderThanAUsualOne) {
+  const auto turns_more = redriven([](const Pose2& step) {
+    return Pose2{step.x_m, step.y_m, 1.3 * step.heading_rad};
+  });
+  constexpr double kOneBeamLess_rad = pi * (kBeams - 1) / kBeams;
+  EXPECT_EQ(
+      evidence_of({.pose = turns_more, .field_rad = kOneBeamLess_rad}).correction.field_factor,
+      1.0);
+}
+
 TEST(WeighLog, FindsAScannerThatLooksBackwards) {
   EXPECT_NEAR(std::abs(evidence_of({.looks_rad = pi}).correction.laser_turn_rad), pi, 1e-9);
 }
