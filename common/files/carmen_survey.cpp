@@ -526,7 +526,8 @@ double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& pl
     odometry.push_back({static_cast<double>(*stamps_ns[i] - *stamps_ns.front()) * 1e-9,
                         corrected(plan.evidence.correction, lasers.poses[i].wheel_from_base)});
   }
-  return matching::odometry_lateness_s(plan.evidence.motions, odometry, plan.evidence.way_scale);
+  return matching::odometry_lateness_s(plan.evidence.motions, odometry,
+                                       {plan.evidence.way_scale, plan.evidence.turn_scale});
 }
 
 /// A pair begins at the end of the one before; if there are too many pairs, every other one is

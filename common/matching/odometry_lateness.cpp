@@ -42,15 +42,23 @@ std::optional<Pose2> motion_at(const ScanPairMotion& pair, std::span<const Timed
   return geometry::inverse(*first) * *second;
 }
 
-double squared_error(const ScanPairMotion& pair, const Pose2& by_odometry, double way_scale) {
-  const double turn = geometry::wrap_angle(by_odometry.heading_rad - pair.turn_rad) /
+double squared_error(const ScanPairMotion& pair, const Pose2& by_odometry,
+                     const MotionScale& scale) {
+  const double turn = geometry::wrap_angle(scale.turn * by_odometry.heading_rad - pair.turn_rad) /
                       (kTurnSigma_rad + kTurnShare * std::abs(pair.turn_rad));
-  const double way = (way_scale * by_odometry.translation_m().norm() - pair.way_m) /
+  const double way = (scale.way * by_odometry.translation_m().norm() - pair.way_m) /
                      (kWaySigma_m + kWayShare * pair.way_m);
   const bool is_straight = std::abs(pair.turn_rad) < kStraight_rad;  // otherwise the laser's way
                                                                      // differs from that of the
                                                                      // base
   return std::min(turn * turn + (is_straight ? way * way : 0.0), kMostSquaredError);
+}
+
+/// A delay changes the ratio of turns by some percent. Wheels that turn too much or too little by
+/// more than that would look like a delay. 0, as a ratio of no turns is, says nothing.
+double turn_scale_beside_delays(double turn_scale) {
+  constexpr double kByDelay = 0.1;
+  return turn_scale > 0.0 && std::abs(turn_scale - 1.0) > kByDelay ? turn_scale : 1.0;
 }
 
 /// Pairs that odometry covers at every delay.
@@ -68,14 +76,15 @@ std::vector<ScanPairMotion> covered(std::span<const ScanPairMotion> pairs,
 }  // namespace
 
 double odometry_lateness_s(std::span<const ScanPairMotion> pairs,
-                           std::span<const TimedPose> odometry, double way_scale) {
+                           std::span<const TimedPose> odometry, const MotionScale& measured) {
   const std::vector<ScanPairMotion> compared = covered(pairs, odometry);
-  if (compared.size() < kFewestCompared || !(way_scale > 0.0)) return 0.0;
+  if (compared.size() < kFewestCompared || !(measured.way > 0.0)) return 0.0;
+  const MotionScale scale{measured.way, turn_scale_beside_delays(measured.turn)};
   std::vector<double> errors;
   for (int step = -kSteps; step <= kSteps; ++step) {
     double sum = 0.0;
     for (const ScanPairMotion& pair : compared)
-      sum += squared_error(pair, *motion_at(pair, odometry, step * kStep_s), way_scale);
+      sum += squared_error(pair, *motion_at(pair, odometry, step * kStep_s), scale);
     errors.push_back(sum);
   }
   const auto best = std::ranges::min_element(errors) - errors.begin();

@@ -20,12 +20,17 @@ struct TimedPose {
   geometry::Pose2 pose;
 };
 
+struct MotionScale {
+  double way = 1.0;
+  double turn = 1.0;
+};
+
 /// Lateness of odometry's stamps against those of the scans [s]: the delay at which turns and ways
 /// by odometry best fit those by pairs of scans. 0 unless the fit is significantly better than
-/// without delay. odometry: in order of time, one pose a scan. way_scale: way by scans over way by
-/// odometry. The search covers delays up to 1 s. The delay is not observable at constant speed and
-/// turn rate.
+/// without delay. odometry: in order of time, one pose a scan. measured: ways and turns by scans
+/// over those by odometry. The search covers delays up to 1 s. The delay is not observable at
+/// constant speed and turn rate.
 double odometry_lateness_s(std::span<const ScanPairMotion> pairs,
-                           std::span<const TimedPose> odometry, double way_scale);
+                           std::span<const TimedPose> odometry, const MotionScale& measured);
 
 }  // namespace slammot::matching

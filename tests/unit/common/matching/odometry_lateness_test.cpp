@@ -34,8 +34,8 @@ Drive drive_with(double late_s, std::size_t pair_count = 40) {
   return drive;
 }
 
-double found_in(const Drive& drive) {
-  return odometry_lateness_s(drive.pairs, drive.odometry, 1.0);
+double found_in(const Drive& drive, double turn_scale = 1.0) {
+  return odometry_lateness_s(drive.pairs, drive.odometry, {1.0, turn_scale});
 }
 
 TEST(OdometryLateness, IsFoundByTheTurnsOfPairsOfScans) {
@@ -44,6 +44,19 @@ TEST(OdometryLateness, IsFoundByTheTurnsOfPairsOfScans) {
 }
 
 TEST(OdometryLateness, IsNoneForOdometryInTime) { EXPECT_EQ(found_in(drive_with(0.0)), 0.0); }
+
+TEST(OdometryLateness, IsNotWhatMakesWheelsTurnTooMuch) {
+  for (const double late_s : {0.0, 0.3}) {
+    Drive drive = drive_with(late_s);
+    for (TimedPose& wheels : drive.odometry) wheels.pose.heading_rad *= 1.4;
+    EXPECT_NEAR(found_in(drive, 1.0 / 1.4), late_s, 0.01);
+  }
+}
+
+TEST(OdometryLateness, TakesADelayForOneWhereItChangesTheRatioOfTurns) {
+  EXPECT_NEAR(found_in(drive_with(0.3), 0.93), 0.3, 0.01);
+  EXPECT_NEAR(found_in(drive_with(0.3), 0.0), 0.3, 0.01) << "no turns to compare";
+}
 
 TEST(OdometryLateness, IsLeftToLocalizationWhereItIsSmall) {
   EXPECT_EQ(found_in(drive_with(0.04)), 0.0);
