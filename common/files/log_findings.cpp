@@ -123,7 +123,8 @@ void describe_doubts(const LogPlan& plan, std::vector<std::string>& findings) {
              1.0 / evidence.way_scale));
   if (is_far_off(evidence.turn_scale))
     findings.push_back(
-        text("turns by odometry are %.2f times those by scans", 1.0 / evidence.turn_scale));
+        text("turns by odometry are %.2f times those by scans%s", 1.0 / evidence.turn_scale,
+             evidence.correction.turn_factor == 1.0 ? "" : ": corrected by as much"));
 }
 
 const char* described(OdometrySource source) {

@@ -325,7 +325,24 @@ Pose2 corrected(const LogCorrection& correction, const Pose2& recorded) {
   return {position_m.x(), position_m.y(), wrap_angle(heading_rad)};
 }
 
+/// With turns of another size, each step bends by as much more or less.
 Pose2 PoseCorrection::next(const LogCorrection& correction, const Pose2& recorded) {
+  const Pose2 pose = in_order(correction, recorded);
+  if (correction.turn_factor == 1.0) return pose;
+  if (last_in_order_) {
+    const Pose2 motion = inverse(*last_in_order_) * pose;
+    const double turn_rad = correction.turn_factor * motion.heading_rad;
+    const geometry::Vector2 moved_m =
+        geometry::rotation(0.5 * (turn_rad - motion.heading_rad)) * motion.translation_m();
+    last_turned_ = last_turned_ * Pose2{moved_m.x(), moved_m.y(), turn_rad};
+  } else {
+    last_turned_ = pose;
+  }
+  last_in_order_ = pose;
+  return last_turned_;
+}
+
+Pose2 PoseCorrection::in_order(const LogCorrection& correction, const Pose2& recorded) {
   if (!correction.integrates_turns_anew) return corrected(correction, recorded);
   const Pose2 in_units{correction.way_unit_m * recorded.x_m, correction.way_unit_m * recorded.y_m,
                        recorded.heading_rad * correction.heading_unit_rad};
@@ -433,6 +450,8 @@ double range_unit_of(double median_reading, double far_reading) {
 
 namespace {
 
+constexpr double kOtherSize = 0.15;  // of turns; less is learned during the drive
+
 LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& beams,
                           const OdometryCheck& odometry, double range_unit_m) {
   LogEvidence evidence;
@@ -481,7 +500,11 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
     evidence.motions.push_back({pair.first_scan, pair.second_scan, pair.by_scans.heading_rad,
                                 pair.by_scans.translation_m().norm()});
   evidence.way_scale = way_scale(straight_pairs);
-  evidence.turn_scale = turn_scale(turning(matched));
+  const std::vector<MatchedPair> turns = turning(matched);
+  evidence.turn_scale = turn_scale(turns);
+  if (turns.size() >= kFewestPairs && evidence.turn_scale > 0.0 &&
+      std::abs(evidence.turn_scale - 1.0) > kOtherSize)
+    correction.turn_factor = evidence.turn_scale;
   return evidence;
 }
 

@@ -24,6 +24,8 @@ struct LogCorrection {
   bool mirrors_heading = false;        ///< Heading of odometry changes sign.
   bool integrates_turns_anew = false;  ///< Positions were integrated with the wrong turn sign:
                                        ///< PoseCorrection integrates the motions again.
+  double turn_factor = 1.0;            ///< On odometry's turns, after mirroring: PoseCorrection
+                                       ///< integrates the motions again.
   double position_turn_rad = 0.0;      ///< Rotates positions about the origin, after mirroring.
   bool reverses_beams = false;         ///< The last beam is the first of the layout.
   double field_factor = 1.0;           ///< Factor on beam directions, in the laser's frame.
@@ -42,8 +44,12 @@ class PoseCorrection {
   geometry::Pose2 next(const LogCorrection& correction, const geometry::Pose2& recorded);
 
  private:
+  geometry::Pose2 in_order(const LogCorrection& correction, const geometry::Pose2& recorded);
+
   std::optional<geometry::Pose2> last_recorded_;  ///< Last recorded pose, in metres and radians.
   geometry::Pose2 last_;                          ///< Last corrected pose.
+  std::optional<geometry::Pose2> last_in_order_;  ///< Before the turns have another size,
+  geometry::Pose2 last_turned_;                   ///< and afterwards.
 };
 
 /// Tests whether odometry's positions move along its headings, step by step. A step lies along the

@@ -172,6 +172,37 @@ TEST(WeighLog, MirrorsOdometryThatTurnsAgainstItsOwnArcs) {
   EXPECT_TRUE(evidence.handedness_is_told);
 }
 
+std::function<Pose2(const Pose2&)> turned_more(double factor) {
+  return redriven([=](const Pose2& step) {
+    return Pose2{step.x_m, step.y_m, factor * step.heading_rad};
+  });
+}
+
+TEST(WeighLog, FindsTurnsOfAnotherSize) {
+  for (const double factor : {0.7, 1.3})
+    EXPECT_NEAR(evidence_of({.pose = turned_more(factor)}).correction.turn_factor * factor, 1.0,
+                0.05);
+  EXPECT_EQ(evidence_of({.pose = turned_more(1.08)}).correction.turn_factor, 1.0)
+      << "is learned during the drive";
+}
+
+TEST(PoseCorrection, GivesTurnsTheirSizeBack) {
+  auto recorded = turned_more(1.3);
+  PoseCorrection correction;
+  std::optional<Pose2> before, corrected_before;
+  for (const Pose2& pose : drive()) {
+    const Pose2 corrected = correction.next({.turn_factor = 1.0 / 1.3}, recorded(pose));
+    if (before) {
+      const Pose2 step = inverse(*corrected_before) * corrected;
+      const Pose2 true_step = inverse(*before) * pose;
+      EXPECT_NEAR(step.heading_rad, true_step.heading_rad, 1e-9);
+      EXPECT_NEAR(step.translation_m().norm(), true_step.translation_m().norm(), 1e-9);
+    }
+    before = pose;
+    corrected_before = corrected;
+  }
+}
+
 TEST(WeighLog, LeavesBeamsWhereOdometryHidesTheArcsOfItsTurns) {
   const LogEvidence evidence = evidence_of({.pose = redriven([](const Pose2& step) {
                                               return Pose2{step.x_m, 0.0, -step.heading_rad};
