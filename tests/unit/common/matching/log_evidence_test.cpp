@@ -150,6 +150,12 @@ std::function<Pose2(const Pose2&)> redriven(const std::function<Pose2(const Pose
   };
 }
 
+std::function<Pose2(const Pose2&)> turned_more(double factor) {
+  return redriven([=](const Pose2& step) {
+    return Pose2{step.x_m, step.y_m, factor * step.heading_rad};
+  });
+}
+
 TEST(WeighLog, DoesNotTurnTheLaserWhereWaysGoInAllDirections) {
   const auto evidence = evidence_of(
       {.pose = redriven([count = 0](const Pose2& step) mutable {
@@ -163,19 +169,11 @@ TEST(WeighLog, DoesNotTurnTheLaserWhereWaysGoInAllDirections) {
 }
 
 TEST(WeighLog, MirrorsOdometryThatTurnsAgainstItsOwnArcs) {
-  const LogEvidence evidence = evidence_of({.pose = redriven([](const Pose2& step) {
-                                              return Pose2{step.x_m, step.y_m, -step.heading_rad};
-                                            })});
+  const LogEvidence evidence = evidence_of({.pose = turned_more(-1.0)});
   EXPECT_TRUE(evidence.correction.mirrors_position);
   EXPECT_TRUE(evidence.correction.mirrors_heading);
   EXPECT_FALSE(evidence.correction.reverses_beams);
   EXPECT_TRUE(evidence.handedness_is_told);
-}
-
-std::function<Pose2(const Pose2&)> turned_more(double factor) {
-  return redriven([=](const Pose2& step) {
-    return Pose2{step.x_m, step.y_m, factor * step.heading_rad};
-  });
 }
 
 TEST(WeighLog, FindsTurnsOfAnotherSize) {
@@ -263,9 +261,7 @@ TEST(WeighLog, FindsTheFieldOfView) {
 
 TEST(WeighLog, FindsTheFieldOfViewByWallsWhereOdometryTurnsTooMuchOrTooLittle) {
   for (const double factor : {0.8, 1.15, 1.3}) {
-    const auto turns_more = redriven([=](const Pose2& step) {
-      return Pose2{step.x_m, step.y_m, factor * step.heading_rad};
-    });
+    const auto turns_more = turned_more(factor);
     EXPECT_NEAR(evidence_of({.pose = turns_more, .field_rad = 0.5 * pi}).correction.field_factor,
                 0.5, 0.02)
         << factor;
@@ -274,13 +270,10 @@ TEST(WeighLog, FindsTheFieldOfViewByWallsWhereOdometryTurnsTooMuchOrTooLittle) {
 }
 
 TEST(WeighLog, KeepsAFieldOfViewThatIsOneBeamWiderThanAUsualOne) {
-  const auto turns_more = redriven([](const Pose2& step) {
-    return Pose2{step.x_m, step.y_m, 1.3 * step.heading_rad};
-  });
   constexpr double kOneBeamLess_rad = pi * (kBeams - 1) / kBeams;
-  EXPECT_EQ(
-      evidence_of({.pose = turns_more, .field_rad = kOneBeamLess_rad}).correction.field_factor,
-      1.0);
+  EXPECT_EQ(evidence_of({.pose = turned_more(1.3), .field_rad = kOneBeamLess_rad})
+                .correction.field_factor,
+            1.0);
 }
 
 TEST(WeighLog, FindsAScannerThatLooksBackwards) {
