@@ -73,7 +73,19 @@ bool Localizer::is_in_order(const sensing::LaserScan& scan) {
 std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan& scan,
                                                        flow::LocalizedScan workspace) {
   if (!is_in_order(scan)) return std::nullopt;
-  if (measures_nothing(scan)) return predict_blank(scan, std::move(workspace));
+  const bool is_frozen =
+      frozen_.repeats(scan, prediction_.wheel_from_base_at(scan.stamp_ns)) && prediction_.last();
+  counters_.frozen_scans += is_frozen ? 1 : 0;
+  if (is_frozen && has_rare_scans())
+    return localize_in_order(frozen_.without_readings(scan), std::move(workspace));
+  const bool is_blank = !is_frozen && measures_nothing(scan);
+  counters_.blank_scans += is_blank ? 1 : 0;
+  if (is_frozen || is_blank) return predict_blank(scan, std::move(workspace));
+  return localize_in_order(scan, std::move(workspace));
+}
+
+flow::LocalizedScan Localizer::localize_in_order(const sensing::LaserScan& scan,
+                                                 flow::LocalizedScan workspace) {
   ++counters_.scans;
   count(integration_.integrate_overdue(scan.stamp_ns, monitor_.trust(), submaps_.map()), counters_);
   if (prediction_.last()) counters_.submaps += submaps_.begin_next_if_due(odom_from_base());

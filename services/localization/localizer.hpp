@@ -18,6 +18,7 @@
 #include "common/work/side_work.hpp"
 #include "services/localization/checkpoint.hpp"
 #include "services/localization/expected_objects.hpp"
+#include "services/localization/frozen_scanner.hpp"
 #include "services/localization/keyframe_odometry.hpp"
 #include "services/localization/local_map.hpp"
 #include "services/localization/localization_monitor.hpp"
@@ -152,7 +153,10 @@ class Localizer final : public stages::LocalizationStage {
   Progress progress() const;
   void return_to(const Progress& progress);
   bool is_in_order(const sensing::LaserScan& scan);
+  bool has_rare_scans() const;
   bool measures_nothing(const sensing::LaserScan& scan) const;
+  flow::LocalizedScan localize_in_order(const sensing::LaserScan& scan,
+                                        flow::LocalizedScan workspace);
   std::optional<flow::LocalizedScan> predict_blank(const sensing::LaserScan& scan,
                                                    flow::LocalizedScan workspace);
   std::optional<std::int64_t> last_stamp_ns() const;
@@ -178,6 +182,7 @@ class Localizer final : public stages::LocalizationStage {
 
   LocalizerConfig config_;
   ScanOrder order_;
+  FrozenScanner frozen_;
   OdometryPrediction prediction_;
   SweepCorrection sweep_;
   ExpectedObjects expected_;

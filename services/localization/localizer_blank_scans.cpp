@@ -5,11 +5,14 @@
 
 namespace slammot::localization {
 
+bool Localizer::has_rare_scans() const {
+  return prediction_.state().belief.usual_step_s >= sensing::kRareScans_s;
+}
+
 /// Rare scans are dead reckoned like any other.
 bool Localizer::measures_nothing(const sensing::LaserScan& scan) const {
-  const double period_s = prediction_.state().belief.usual_step_s;
-  return sensing::is_blank(scan, period_s) ||
-         (prediction_.last() && period_s < sensing::kRareScans_s &&
+  return sensing::is_blank(scan, prediction_.state().belief.usual_step_s) ||
+         (prediction_.last() && !has_rare_scans() &&
           is_blind(scan, odom_from_base(), submaps_.map()));
 }
 
@@ -17,7 +20,6 @@ bool Localizer::measures_nothing(const sensing::LaserScan& scan) const {
 /// nothing goes into the map. Its labels are awaited like those of any scan.
 std::optional<flow::LocalizedScan> Localizer::predict_blank(const sensing::LaserScan& scan,
                                                             flow::LocalizedScan workspace) {
-  ++counters_.blank_scans;
   if (scan.range_m.empty() || !prediction_.last() || !order_.accept_blank(scan))
     return std::nullopt;
   const Step step = prediction_.predict(scan.stamp_ns);

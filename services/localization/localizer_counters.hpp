@@ -14,6 +14,7 @@ struct LocalizerCounters {
   std::uint64_t far_ahead_scans = 0;     ///< Stamped far ahead of those before, and no second one
                                          ///< agreed: dropped.
   std::uint64_t blank_scans = 0;         ///< Nothing was measured: pose predicted.
+  std::uint64_t frozen_scans = 0;        ///< Readings of the scan before, while odometry moves.
   std::uint64_t too_few_echoes = 0;      ///< Dead reckoning instead of a match.
   std::uint64_t lost_matches = 0;        ///< Too few points matched: dead reckoning.
   std::uint64_t searches = 0;            ///< Correlative searches.
@@ -41,6 +42,7 @@ inline std::map<std::string, std::uint64_t> named(const LocalizerCounters& count
           {"out_of_order_scans", counters.out_of_order_scans},
           {"far_ahead_scans", counters.far_ahead_scans},
           {"blank_scans", counters.blank_scans},
+          {"frozen_scans", counters.frozen_scans},
           {"too_few_echoes", counters.too_few_echoes},
           {"lost_matches", counters.lost_matches},
           {"searches", counters.searches},

@@ -14,8 +14,9 @@ using geometry::Pose2;
 constexpr double kStandsWithin_m = 1e-4;      // a step: wheels that stand count nothing,
 constexpr double kStandsWithin_radps = 0.01;  // and what a gyro says then is its bias
 constexpr double kStandsAfter_s = 0.5;        // odometry may come less often than scans
-constexpr double kFarStep_m = 5.0;       // without a clock, a step by odometry longer than this
-constexpr double kFarStepShare = 8.0;    // and so many usual ones is a jump
+constexpr double kFarStep_m = 5.0;       // a step by odometry longer than this and so many usual
+constexpr double kFarStepShare = 8.0;    // ones is a jump: of a vehicle that drives slowly at any
+                                         // possible speed
 constexpr double kVelocityOver_s = 0.1;  // changes of the velocity take longer
 constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: what the next steps
                                                           // are compared with
@@ -77,12 +78,18 @@ void OdometryPrediction::begin(std::int64_t stamp_ns) {
                          .wheel_from_base = wheel_from_base.value_or(Pose2{})};
 }
 
-/// Where time is not known, by the way of a usual step.
+/// By the vehicle's greatest speed, and by the way of a usual step; in a gap it drives at most
+/// twice as fast as usual.
 bool OdometryPrediction::is_impossible(const Pose2& by_wheels, double duration_s) const {
-  const double farthest_m = config_.odometry.time_is_known
-                                ? config_.odometry.fastest_mps * duration_s
-                                : kFarStep_m + kFarStepShare * state_.belief.usual_drive_m;
-  return std::hypot(by_wheels.x_m, by_wheels.y_m) > farthest_m;
+  constexpr double kFasterInGap = 2.0;
+  const sensing::OdometryBelief& belief = state_.belief;
+  const double usual_steps =
+      config_.odometry.time_is_known ? duration_s / belief.usual_step_s : 1.0;
+  const double farthest_m =
+      kFarStep_m + belief.usual_drive_m * std::max(kFarStepShare, kFasterInGap * usual_steps);
+  const double way_m = std::hypot(by_wheels.x_m, by_wheels.y_m);
+  return way_m > farthest_m ||
+         (config_.odometry.time_is_known && way_m > config_.odometry.fastest_mps * duration_s);
 }
 
 /// Wheels that go on saying what cannot be are right, and the velocity is wrong: only a single step
@@ -92,7 +99,6 @@ bool OdometryPrediction::is_doubtful(const Pose2& by_wheels, double duration_s) 
          is_wheel_jump(by_wheels, state_.last->speed_mps, state_.last->yaw_rate_radps, duration_s);
 }
 
-/// The wheels' pose at a scan's stamp, by the offset between the clocks as believed.
 std::optional<Pose2> OdometryPrediction::wheel_from_base_at(std::int64_t stamp_ns) const {
   const std::optional<Pose2> at_stamp = odometry_.wheel_from_base_at(stamp_ns);
   if (!at_stamp || !state_.applies_stamp_offset) return at_stamp;

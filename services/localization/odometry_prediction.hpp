@@ -130,6 +130,9 @@ class OdometryPrediction {
   /// Whether waiting for more odometry could still improve the prediction at the stamp.
   bool reaches(std::int64_t stamp_ns) const { return odometry_.reaches(stamp_ns); }
 
+  /// Odometry at a scan's stamp, by the offset between the clocks as believed.
+  std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
+
   /// The first scan. The pose is the origin of odom.
   void begin(std::int64_t stamp_ns);
 
@@ -187,7 +190,6 @@ class OdometryPrediction {
   const sensing::MotionEstimate& of_stamps() const {
     return state_.applies_stamp_offset ? state_.estimate : state_.with_stamp_offset;
   }
-  std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
   std::optional<geometry::Pose2> step_by_wheels(const Step& step) const;
   std::optional<geometry::Pose2> wheel_step(std::int64_t stamp_ns, std::int64_t after_ns) const;
   Eigen::Vector3d step_by_stamp_offset(std::int64_t stamp_ns, double offset_s) const;

@@ -37,6 +37,11 @@ std::string describe_left_out(const files::RunRecord& record, const files::RunRe
   std::string lines;
   if (record.localized_scans() < record.scans() && !reasons.empty())
     lines += "not localized: " + reasons + "\n";
+  if (const auto frozen = count_of("frozen_scans"); frozen > 0)
+    lines += text(
+        "warning:  %llu scans repeat the readings of the one before while odometry moves (the "
+        "scanner hangs): not used\n",
+        frozen);
   if (const auto blank = count_of("blank_scans"); blank > 0)
     lines += text(
         "warning:  %llu scans have no valid reading (NaN), or hardly an echo where the map expects "

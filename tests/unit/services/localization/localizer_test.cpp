@@ -503,6 +503,16 @@ TEST(Localizer, WorksWithoutAnyOdometryWhenTheLogBeginsInFullDrive) {
   EXPECT_LT(errors.worst_rad, 0.01);
 }
 
+/// The same scans, farther apart in time.
+DriveSetup with_rare_scans(DriveSetup setup, double period_s) {
+  setup.world_from_base_at = [path = setup.world_from_base_at,
+                              slower = setup.scan_period_s / period_s](double time_s) {
+    return path(slower * time_s);
+  };
+  setup.scan_period_s = period_s;
+  return setup;
+}
+
 TEST(Localizer, GoesOnAtConstantVelocityWhenOdometryJumps) {
   SimulatedDrive drive(round_in_a_room());
   Localizer localizer(small_map_config());
@@ -515,6 +525,23 @@ TEST(Localizer, GoesOnAtConstantVelocityWhenOdometryJumps) {
     const auto localized = localizer.localize(drive.scan(scan));
     localizer.integrate(all_stationary(*localized));
     EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.03));
+  }
+  EXPECT_EQ(localizer.counters().odometry_jumps, 1U);
+}
+
+/// A robot that logs a scan every two seconds, 0.2 m apart, could have driven 20 m meanwhile.
+TEST(Localizer, IsNotMovedByAJumpOfOdometryThatIsFarForItsUsualSteps) {
+  SimulatedDrive drive(with_rare_scans(round_in_a_room(), 2.0));
+  Localizer localizer(small_map_config());
+  drive_through(localizer, drive, 0, 50);
+  const Pose2 jump{14.0, -3.0, 2.0};
+  for (std::uint32_t scan = 50; scan < 70; ++scan) {
+    sensing::Odometry odometry = drive.odometry(scan);
+    odometry.wheel_from_base = jump * odometry.wheel_from_base;
+    localizer.add_odometry(odometry);
+    const auto localized = localizer.localize(drive.scan(scan));
+    localizer.integrate(all_stationary(*localized));
+    EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.05));
   }
   EXPECT_EQ(localizer.counters().odometry_jumps, 1U);
 }
@@ -680,6 +707,27 @@ TEST(Localizer, FollowsTheWheelsWhenTheScannerSeesNextToNothing) {
   }
   EXPECT_EQ(localizer.counters().blank_scans, 10U);
   EXPECT_LT(drive_through(localizer, drive, 60, 90).worst_m, 0.03);
+}
+
+TEST(Localizer, FollowsTheWheelsWhileTheScannerHangs) {
+  for (const double period_s : {0.1, 1.0}) {
+    SimulatedDrive drive(with_rare_scans(round_in_a_room(), period_s));
+    Localizer localizer(small_map_config());
+    drive_through(localizer, drive, 0, 50);
+    const std::vector<float> last = drive.scan(49).range_m;
+    for (std::uint32_t scan = 50; scan < 60; ++scan) {
+      localizer.add_odometry(drive.odometry(scan));
+      auto frozen = drive.scan(scan);
+      frozen.range_m = last;
+      const auto localized = localizer.localize(frozen);
+      ASSERT_TRUE(localized);
+      localizer.integrate(all_stationary(*localized));
+      EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.03));
+    }
+    EXPECT_EQ(localizer.counters().frozen_scans, 10U) << period_s;
+    EXPECT_EQ(localizer.counters().blank_scans, 0U) << period_s;
+    EXPECT_LT(drive_through(localizer, drive, 60, 90).worst_m, 0.03) << period_s;
+  }
 }
 
 TEST(Localizer, TakesScansOfNonsense) {
