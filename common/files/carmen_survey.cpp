@@ -251,6 +251,7 @@ void CarmenSurvey::add_laser(const LaserRecord& record) {
       lasers.pose_changes || (!lasers.poses.empty() && differ(lasers.poses.front().wheel_from_base,
                                                               record.wheel_from_base, 1e-9, 1e-9));
   lasers.poses.push_back(pose);
+  lasers.own_body.add(record.range_m);
   lasers.odometry_check.add(record.wheel_from_base);
   const geometry::Pose2& recorded =
       lasers.pose_changes ? record.wheel_from_base : chosen_odometry_lines().last_pose;
@@ -382,14 +383,15 @@ std::vector<const CarmenSurvey::Lasers*> CarmenSurvey::lasers_to_use(
 }
 
 ScannerPlan CarmenSurvey::scanner_plan(const Lasers& lasers) const {
-  return {lasers.scanner,
-          lasers.kind,
-          lasers.slot,
-          lasers.scans,
-          base_from_laser(lasers),
-          max_range_m(lasers),
-          mounting_is_known(lasers),
-          {}};
+  return {.name = lasers.scanner,
+          .kind = lasers.kind,
+          .slot = lasers.slot,
+          .scans = lasers.scans,
+          .base_from_laser = base_from_laser(lasers),
+          .max_range_m = max_range_m(lasers),
+          .own_body = {},
+          .mounting_is_known = mounting_is_known(lasers),
+          .profile_mounting = {}};
 }
 
 /// By the wish, the PARAM lines or the record; none for a scanner that scans the plane.
@@ -463,7 +465,11 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
         lasers.lines_between[static_cast<std::size_t>(plan.odometry_lines)].before_scan;
   plan.figures = figures(lasers, plan, fallback_field_of_view_rad);
   if (lasers.scans == 0) return plan;
-  for (const Lasers& scanner : scanners) plan.scanners.push_back(scanner_plan(scanner));
+  for (const Lasers& scanner : scanners) {
+    plan.scanners.push_back(scanner_plan(scanner));
+    plan.scanners.back().own_body =
+        scanner.own_body.conclude(plan.evidence.correction.range_unit_m);
+  }
   plan.scanners.front().base_from_laser = plan.base_from_laser;
   plan.profile_scanners = profile_scanners(wish);
   return plan;
@@ -493,8 +499,11 @@ matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& p
       has_small_units ? lasers.pairs_in_small_units.pairs() : lasers.moved_pairs.pairs();
   pairs.insert(pairs.end(), lasers.turned_pairs.pairs().begin(), lasers.turned_pairs.pairs().end());
   if (pairs.empty()) return plan.evidence;
-  const auto no_echo = static_cast<float>(plan.max_range_m / plan.evidence.correction.range_unit_m);
+  const double unit_m = plan.evidence.correction.range_unit_m;
+  const auto no_echo = static_cast<float>(plan.max_range_m / unit_m);
+  const sensing::OwnBody own_body = lasers.own_body.conclude(unit_m);
   const auto leave_out = [&](std::vector<float>& ranges) {
+    own_body.hide(ranges, std::numeric_limits<float>::quiet_NaN());
     for (float& range : ranges)
       range = range > 0.0F && range < no_echo ? range : std::numeric_limits<float>::quiet_NaN();
   };

@@ -14,6 +14,7 @@
 #include "common/files/result.hpp"
 #include "common/files/topic_choice.hpp"
 #include "common/matching/log_evidence.hpp"
+#include "common/sensing/own_body.hpp"
 #include "common/sensing/scan_times.hpp"
 #include "common/sensing/spatial_mounting.hpp"
 #include "common/sensing/stamp_guard.hpp"
@@ -70,6 +71,7 @@ struct ScannerPlan {
   std::uint64_t scans = 0;
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;       ///< As in LogPlan.
+  sensing::OwnBody own_body;      ///< In recorded units, as readings are written.
   bool mounting_is_known = true;  ///< From the log; otherwise base_from_laser is a guess.
   std::optional<sensing::SpatialMounting> profile_mounting;  ///< Of a scanner that scans a vertical
                                                              ///< profile.
@@ -228,6 +230,7 @@ class CarmenSurvey {
     std::uint64_t readings = 0;
     std::uint64_t scans_without_readings = 0;
     std::vector<std::uint32_t> readings_by_unit;  // as written, whatever the unit
+    sensing::OwnBodySurvey own_body;
     matching::OdometryCheck odometry_check;
     // whatever the unit
     PairSample moved_pairs{0.25, 0.12, std::numeric_limits<double>::infinity()};

@@ -83,6 +83,18 @@ void describe_signs(const LogPlan& plan, std::vector<std::string>& findings) {
              correction.laser_turn_rad * kDegrees));
 }
 
+void describe_own_bodies(const LogPlan& plan, std::vector<std::string>& findings) {
+  for (const ScannerPlan& scanner : plan.scanners) {
+    const std::size_t beams = scanner.own_body.beams();
+    if (beams == 0) continue;
+    findings.push_back(text(
+        "%zu of %zu beams%s see the vehicle itself, at the same distance in nine of ten views: "
+        "these echoes are left out",
+        beams, scanner.own_body.reach.size(),
+        plan.scanners.size() > 1 ? (" of scanner " + scanner.name).c_str() : ""));
+  }
+}
+
 void describe_gaps(const LogFigures& figures, std::vector<std::string>& findings) {
   constexpr double kLongGap = 10.0;  // periods
   if (figures.scans_without_readings > 0) {
@@ -224,6 +236,7 @@ std::vector<std::string> describe_findings(const LogPlan& plan) {
   if (auto clock = describe_clock(plan); !clock.empty()) findings.push_back(std::move(clock));
   describe_units(plan.evidence.correction, findings);
   describe_signs(plan, findings);
+  describe_own_bodies(plan, findings);
   describe_gaps(plan.figures, findings);
   describe_doubts(plan, findings);
   for (const std::string& name : plan.unplaced_scanners)
