@@ -183,6 +183,20 @@ double turn_scale(const std::vector<MatchedPair>& turning_pairs) {
   return scales.size() < kFewestPairs ? 0.0 : median_of(std::move(scales));
 }
 
+/// Whichever scale is nearer to 1: of the pairs that turn by odometry or of those that turn by
+/// scans. Odometry whose noise is as large as the turns has turns too large in the former, and one
+/// scan matched wrongly in the latter.
+double turn_scale_of_both(const std::vector<MatchedPair>& matched) {
+  std::vector<MatchedPair> by_scans = matched;
+  for (MatchedPair& pair : by_scans) std::swap(pair.by_odometry, pair.by_scans);
+  const double of_odometry = turn_scale(turning(matched));
+  const double of_scans = turn_scale(turning(by_scans));
+  if (!(of_odometry > 0.0 && of_scans > 0.0)) return of_odometry;
+  const double inverse = 1.0 / of_scans;
+  if ((of_odometry > 1.0) != (inverse > 1.0)) return 1.0;
+  return of_odometry > 1.0 ? std::min(of_odometry, inverse) : std::max(of_odometry, inverse);
+}
+
 /// Pairs with straight motion by scans: the laser's position on the vehicle does not affect them.
 std::vector<MatchedPair> straight(const std::vector<MatchedPair>& matched) {
   std::vector<MatchedPair> some;
@@ -500,10 +514,8 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
     evidence.motions.push_back({pair.first_scan, pair.second_scan, pair.by_scans.heading_rad,
                                 pair.by_scans.translation_m().norm()});
   evidence.way_scale = way_scale(straight_pairs);
-  const std::vector<MatchedPair> turns = turning(matched);
-  evidence.turn_scale = turn_scale(turns);
-  if (turns.size() >= kFewestPairs && evidence.turn_scale > 0.0 &&
-      std::abs(evidence.turn_scale - 1.0) > kOtherSize)
+  evidence.turn_scale = turn_scale_of_both(matched);
+  if (evidence.turn_scale > 0.0 && std::abs(evidence.turn_scale - 1.0) > kOtherSize)
     correction.turn_factor = evidence.turn_scale;
   return evidence;
 }

@@ -184,6 +184,14 @@ TEST(WeighLog, FindsTurnsOfAnotherSize) {
       << "is learned during the drive";
 }
 
+TEST(WeighLog, DoesNotTakeNoiseOfOdometryForTurnsOfAnotherSize) {
+  const LogEvidence evidence = evidence_of({.pose = [count = 0](const Pose2& pose) mutable {
+    return pose * Pose2{0.0, 0.0, 0.2 * std::sin(2.4 * count++)};
+  }});
+  EXPECT_EQ(evidence.correction.turn_factor, 1.0);
+  EXPECT_NEAR(evidence.turn_scale, 1.0, 0.1);
+}
+
 TEST(PoseCorrection, GivesTurnsTheirSizeBack) {
   auto recorded = turned_more(1.3);
   PoseCorrection correction;
