@@ -286,8 +286,10 @@ void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int6
                                     // second one it counts as far ahead
     return;
   }
-  if (plan_.odometry_late_s != 0.0) {
-    if (wheel_from_base) keep_odometry({stamp - lateness_ns(), *wheel_from_base});
+  if (plan_.odometry_late_s != 0.0 || plan_.odometry_held_scans > 0) {
+    if (wheel_from_base && plan_.odometry != OdometrySource::kOdomLines &&
+        is_fresh(*wheel_from_base))
+      keep_odometry({stamp - lateness_ns(), *wheel_from_base});
     waiting_.push_back(std::move(scan));
     return put_waiting_scans(kMaxWaitingScans);
   }
@@ -343,6 +345,15 @@ void CarmenLog::take(const ImuRecord& record) {
   if (has_replaced_stamps()) return void(++faults_.ignored_lines);
   if (!stamp) return note_malformed();
   if (gyro_stamps_.believes(*stamp)) gyro_.add({*stamp, record.yaw_rate_radps});
+}
+
+/// Whether a scan's pose is not a repeated one. One that is repeated for long is: the vehicle
+/// stands.
+bool CarmenLog::is_fresh(const geometry::Pose2& wheel_from_base) {
+  if (held_pose_ == wheel_from_base && ++held_scans_ <= plan_.odometry_held_scans) return false;
+  held_pose_ = wheel_from_base;
+  held_scans_ = 0;
+  return true;
 }
 
 std::int64_t CarmenLog::lateness_ns() const { return std::llround(plan_.odometry_late_s * 1e9); }

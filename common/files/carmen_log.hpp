@@ -144,6 +144,7 @@ class CarmenLog {
   sensing::LaserScan scan_of(LaserRecord record, std::size_t scanner, std::int64_t stamp_ns) const;
   void correct(sensing::LaserScan& scan, std::size_t scanner) const;
   bool has_beams_of_the_main_one(std::size_t scanner) const;
+  bool is_fresh(const geometry::Pose2& wheel_from_base);
   std::int64_t lateness_ns() const;
   bool keep_odometry(const sensing::Odometry& odometry);
   void put_odometry(const sensing::Odometry& odometry);
@@ -183,7 +184,9 @@ class CarmenLog {
   sensing::StampGuard odometry_stamps_{60.0};
   sensing::StampGuard gyro_stamps_{60.0};
   std::optional<sensing::Odometry> newest_odometry_;  // handed out
-  matching::PoseCorrection pose_correction_;          // of poses in the order of the log
+  std::optional<geometry::Pose2> held_pose_;          // of the last scan
+  std::size_t held_scans_ = 0;
+  matching::PoseCorrection pose_correction_;  // of poses in the order of the log
   sensing::GyroOdometry gyro_;
 };
 

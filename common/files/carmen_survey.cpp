@@ -192,6 +192,26 @@ bool CarmenSurvey::AgreementCheck::agrees() const {
   return compared_ > 0 && static_cast<double>(met_) >= kMetShare * static_cast<double>(compared_);
 }
 
+void CarmenSurvey::HeldPoses::add(const geometry::Pose2& recorded) {
+  if (last_ == recorded) {
+    ++repeats_;
+    return;
+  }
+  if (std::exchange(last_, recorded))
+    repeats_before_change_.push_back(static_cast<double>(std::exchange(repeats_, 0)));
+}
+
+/// A vehicle that stands repeats its pose, too, but seldom begins to: poses are held where most
+/// changes come after a repetition.
+std::size_t CarmenSurvey::HeldPoses::most_scans() const {
+  constexpr std::size_t kFewestChanges = 20;
+  constexpr double kAtMost = 2.0;  // times what nine of ten changes come after
+  if (repeats_before_change_.size() < kFewestChanges ||
+      percentile(repeats_before_change_, 0.5) < 1.0)
+    return 0;
+  return 1 + static_cast<std::size_t>(kAtMost * percentile(repeats_before_change_, 0.9));
+}
+
 void CarmenSurvey::add(const CarmenRecord& record) {
   ++lines_;
   if (const auto* laser = std::get_if<LaserRecord>(&record)) add_laser(*laser);
@@ -251,6 +271,7 @@ void CarmenSurvey::add_laser(const LaserRecord& record) {
       lasers.pose_changes || (!lasers.poses.empty() && differ(lasers.poses.front().wheel_from_base,
                                                               record.wheel_from_base, 1e-9, 1e-9));
   lasers.poses.push_back(pose);
+  lasers.held_poses.add(record.wheel_from_base);
   lasers.own_body.add(record.range_m);
   lasers.odometry_check.add(record.wheel_from_base);
   const geometry::Pose2& recorded =
@@ -458,6 +479,7 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
     plan.base_from_laser.heading_rad = geometry::wrap_angle(
         plan.base_from_laser.heading_rad + plan.evidence.correction.laser_turn_rad);
   choose_clock(lasers, plan);
+  plan.odometry_held_scans = lasers.held_poses.most_scans();
   plan.odometry = odometry_source(lasers, plan);
   plan.odometry_late_s = odometry_lateness_s(lasers, plan);
   if (!plan.times.stamps_ns.empty())
@@ -514,7 +536,9 @@ matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& p
   const BeamLayout layout = lasers.layout.value_or(
       layout_by_convention(pairs.front().first.size(), fallback_field_of_view_rad));
   return matching::weigh_log(
-      pairs, {layout.first_beam_rad, layout.beam_step_rad, plan.base_from_laser.heading_rad},
+      pairs,
+      {layout.first_beam_rad, layout.beam_step_rad, plan.base_from_laser.heading_rad,
+       plan.base_from_laser.translation_m()},
       chosen_odometry_lines().pose_changes ? chosen_odometry_lines().check : lasers.odometry_check,
       plan.evidence.correction.range_unit_m);
 }
@@ -532,6 +556,9 @@ double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& pl
     return 0.0;
   std::vector<matching::TimedPose> odometry;
   for (std::size_t i = 0; i < lasers.poses.size(); ++i) {
+    const bool is_held = plan.odometry_held_scans > 0 && i > 0 &&
+                         lasers.poses[i].wheel_from_base == lasers.poses[i - 1].wheel_from_base;
+    if (is_held) continue;
     odometry.push_back({static_cast<double>(*stamps_ns[i] - *stamps_ns.front()) * 1e-9,
                         corrected(plan.evidence.correction, lasers.poses[i].wheel_from_base)});
   }
@@ -653,6 +680,7 @@ OdometrySource CarmenSurvey::odometry_source(const Lasers& lasers, const LogPlan
   const bool lines_change = chosen_odometry_lines().pose_changes;
   if (!lasers.pose_changes)
     return lines_change ? OdometrySource::kOdomLines : OdometrySource::kNone;
+  if (lines_change && plan.odometry_held_scans > 0) return OdometrySource::kOdomLines;
   const bool is_replaced = !plan.times.stamps_ns.empty();
   const bool agrees = is_replaced ? lasers.agreement_by_order.agrees()
                                   : plan.clock == LogClock::kIpc && lasers.agreement.agrees();

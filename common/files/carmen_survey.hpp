@@ -109,6 +109,9 @@ struct LogPlan {
                                                       ///< ODOM lines a time if stamps are replaced.
   OdometrySource odometry = OdometrySource::kNone;
   OdometryRecordKind odometry_lines = OdometryRecordKind::kOdom;  ///< Which lines count as ODOM.
+  std::size_t odometry_held_scans = 0;  ///< Odometry comes less often than scans, which repeat its
+                                        ///< last pose, at most for so many scans while the vehicle
+                                        ///< moves: between them it is interpolated. 0: with each.
   double odometry_late_s = 0.0;  ///< Lateness of its stamps against the scans; removed on reading.
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;  ///< Readings at or beyond it are "no echo"; a scan's own record may
@@ -174,6 +177,19 @@ class CarmenSurvey {
     std::uint64_t met_ = 0;
   };
 
+  /// Counts how often consecutive scans have the very same pose of odometry.
+  class HeldPoses {
+   public:
+    void add(const geometry::Pose2& recorded);
+    /// As LogPlan::odometry_held_scans.
+    std::size_t most_scans() const;
+
+   private:
+    std::optional<geometry::Pose2> last_;
+    std::size_t repeats_ = 0;
+    std::vector<double> repeats_before_change_;
+  };
+
   /// Sample of scan pairs with little motion in between, spread over the log, limited in number.
   class PairSample {
    public:
@@ -227,6 +243,7 @@ class CarmenSurvey {
     AgreementCheck agreement;           // by ipc time
     AgreementCheck agreement_by_order;  // by the lines' order in the log
     bool pose_changes = false;
+    HeldPoses held_poses;
     std::uint64_t readings = 0;
     std::uint64_t scans_without_readings = 0;
     std::vector<std::uint32_t> readings_by_unit;  // as written, whatever the unit

@@ -81,6 +81,12 @@ void describe_signs(const LogPlan& plan, std::vector<std::string>& findings) {
     findings.push_back(
         text("scanner is mounted turned by %.0f degrees more than the log says: corrected",
              correction.laser_turn_rad * kDegrees));
+  const geometry::Pose2 odometry_in_base = inverse(correction.odometry_from_base);
+  if (odometry_in_base != geometry::Pose2::identity())
+    findings.push_back(
+        text("odometry is of a point %.1f m %s and %.1f m %s of the vehicle's: taken from there",
+             std::abs(odometry_in_base.x_m), odometry_in_base.x_m < 0.0 ? "behind" : "ahead",
+             std::abs(odometry_in_base.y_m), odometry_in_base.y_m < 0.0 ? "right" : "left"));
 }
 
 void describe_own_bodies(const LogPlan& plan, std::vector<std::string>& findings) {
@@ -120,6 +126,9 @@ void describe_doubts(const LogPlan& plan, std::vector<std::string>& findings) {
     findings.push_back(text("odometry is %.2f s %s, by the turns of pairs of scans: taken back",
                             std::abs(plan.odometry_late_s),
                             plan.odometry_late_s > 0.0 ? "late" : "early"));
+  if (plan.odometry_held_scans > 0 && plan.odometry != OdometrySource::kNone)
+    findings.emplace_back(
+        "odometry comes less often than scans, which repeat its last pose: interpolated");
   if (plan.odometry == OdometrySource::kNone)
     findings.emplace_back("there is no odometry: scans alone say how the vehicle moves");
   if (evidence.pairs > 0 && evidence.matched_share < kMostlyMatched)

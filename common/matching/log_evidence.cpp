@@ -7,7 +7,10 @@
 
 #include <Eigen/LU>
 
+#include "common/grids/surfel_map.hpp"
 #include "common/matching/correlative.hpp"
+#include "common/matching/odometry_point.hpp"
+#include "common/matching/point_to_line.hpp"
 #include "common/matching/wall_bend.hpp"
 
 namespace slammot::matching {
@@ -55,6 +58,7 @@ struct MatchedPair {
   double score = 0.0;
   std::size_t first_scan = 0;
   std::size_t second_scan = 0;
+  std::size_t number = 0;  // among the pairs
 };
 
 Pose2 motion_by_odometry(const ScanPair& pair, const LogCorrection& correction) {
@@ -150,8 +154,11 @@ std::vector<MatchedPair> match_all(std::span<const ScanPair> pairs, const Assume
   CorrelativeMatcher matcher(
       {.resolution_m = 0.1, .smear_sigma_m = 0.1, .heading_step_rad = 0.01, .min_score = 0.45});
   std::vector<MatchedPair> matched;
-  for (const ScanPair& pair : pairs) {
-    if (auto found = match(matcher, pair, beams, correction)) matched.push_back(*found);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    auto found = match(matcher, pairs[i], beams, correction);
+    if (!found) continue;
+    found->number = i;
+    matched.push_back(*found);
   }
   return matched;
 }
@@ -229,6 +236,43 @@ std::complex<double> mounting(const std::vector<MatchedPair>& straight_pairs) {
   return straight_pairs.empty() ? 0.0 : sum / static_cast<double>(straight_pairs.size());
 }
 
+/// The pair's motion as its points say that are nearest to the surfaces of the first scan: better
+/// than a cell of the search.
+Pose2 registered(PointToLineMatcher& matcher, const ScanPair& pair, const AssumedBeams& beams,
+                 double unit_m, const Pose2& by_scans) {
+  constexpr std::size_t kAllPoints = 2000;
+  constexpr double kCell_m = 0.5;
+  constexpr double kReach_m = 64.0;  // of all points
+  constexpr double kManyEchoes = 1000.0;
+  constexpr double kSigma_m = 0.1;
+  constexpr double kSigma_rad = 0.02;
+  grids::SurfelMap surfels(grids::window_around(geometry::Vector2::Zero(), kReach_m, kCell_m),
+                           kManyEchoes);
+  for (const Eigen::Vector2f& point : points_of(pair.first, beams, unit_m, kAllPoints))
+    surfels.add(point.cast<double>());
+  std::vector<MatchPoint> points;
+  for (const Eigen::Vector2f& point : points_of(pair.second, beams, unit_m, kAllPoints))
+    points.push_back({point.cast<double>()});
+  PointToLineConfig config;
+  config.unproven_share = 1.0;
+  config.proven_after_m = 0.0;
+  config.information_share = 1.0;
+  const geometry::UncertainPose2 prior{
+      by_scans, Eigen::Vector3d(kSigma_m, kSigma_m, kSigma_rad).cwiseAbs2().asDiagonal()};
+  return matcher.match(points, surfels, prior, by_scans, config).map_from_base.pose;
+}
+
+std::optional<OdometryPoint> odometry_point(std::span<const ScanPair> pairs,
+                                            const AssumedBeams& beams, double unit_m,
+                                            const std::vector<MatchedPair>& matched) {
+  PointToLineMatcher matcher;
+  std::vector<PairMotion> motions;
+  for (const MatchedPair& pair : matched)
+    motions.push_back(
+        {pair.by_odometry, registered(matcher, pairs[pair.number], beams, unit_m, pair.by_scans)});
+  return odometry_point(motions);
+}
+
 /// Assumes a scanner mounted straight, backwards or at right angles, unless the evidence clearly
 /// differs.
 double at_right_angle(double turn_rad) {
@@ -238,7 +282,10 @@ double at_right_angle(double turn_rad) {
 }
 
 AssumedBeams with_field(const AssumedBeams& beams, double factor) {
-  return {beams.first_beam_rad * factor, beams.beam_step_rad * factor, beams.laser_heading_rad};
+  AssumedBeams wider = beams;
+  wider.first_beam_rad *= factor;
+  wider.beam_step_rad *= factor;
+  return wider;
 }
 
 /// First scans of the pairs, in metres.
@@ -341,6 +388,10 @@ Pose2 corrected(const LogCorrection& correction, const Pose2& recorded) {
 
 /// With turns of another size, each step bends by as much more or less.
 Pose2 PoseCorrection::next(const LogCorrection& correction, const Pose2& recorded) {
+  return turned(correction, recorded) * correction.odometry_from_base;
+}
+
+Pose2 PoseCorrection::turned(const LogCorrection& correction, const Pose2& recorded) {
   const Pose2 pose = in_order(correction, recorded);
   if (correction.turn_factor == 1.0) return pose;
   if (last_in_order_) {
@@ -464,7 +515,27 @@ double range_unit_of(double median_reading, double far_reading) {
 
 namespace {
 
-constexpr double kOtherSize = 0.15;  // of turns; less is learned during the drive
+constexpr double kTurnedSeen_rad = 0.4;  // of a scanner: by single pairs; less needs all of them
+constexpr double kOtherSize = 0.15;      // of turns; less is learned during the drive
+
+/// A scanner turned a little, and odometry of another point of the vehicle: each where the pairs
+/// determine it well enough to tell it from none.
+void place_odometry(const std::optional<OdometryPoint>& point, const AssumedBeams& beams,
+                    LogCorrection& correction) {
+  constexpr double kTurned_rad = 0.02;
+  constexpr double kApart_m = 0.2;
+  constexpr double kSigmas = 4.0;
+  if (!point) return;
+  const Pose2& found = point->odometry_from_laser;
+  const double turned_rad = wrap_angle(found.heading_rad - beams.laser_heading_rad);
+  if (correction.laser_turn_rad == 0.0 && std::abs(turned_rad) < kTurnedSeen_rad &&
+      std::abs(turned_rad) > std::max(kTurned_rad, kSigmas * point->sigma.heading_rad))
+    correction.laser_turn_rad = turned_rad;
+  const geometry::Vector2 apart_m = found.translation_m() - beams.laser_in_base_m;
+  const double sigma_m = std::hypot(point->sigma.x_m, point->sigma.y_m);
+  if (apart_m.norm() > std::max(kApart_m, kSigmas * sigma_m))
+    correction.odometry_from_base = {apart_m.x(), apart_m.y(), 0.0};
+}
 
 LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& beams,
                           const OdometryCheck& odometry, double range_unit_m) {
@@ -502,7 +573,7 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
       mounting(straight_pairs) * std::polar(1.0, -beams.laser_heading_rad);
   const double turn_rad = std::arg(mounted);
   if (straight_pairs.size() >= kFewestPairs && std::abs(mounted) > kConsistent &&
-      std::abs(turn_rad) > 0.4) {
+      std::abs(turn_rad) > kTurnedSeen_rad) {
     if (correction.mirrors_position != correction.mirrors_heading) {
       correction.position_turn_rad =
           wrap_angle(correction.position_turn_rad - at_right_angle(turn_rad));
@@ -513,6 +584,9 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
   for (const MatchedPair& pair : matched)
     evidence.motions.push_back({pair.first_scan, pair.second_scan, pair.by_scans.heading_rad,
                                 pair.by_scans.translation_m().norm()});
+  place_odometry(odometry_point(looked_at, with_field(beams, correction.field_factor),
+                                correction.range_unit_m, matched),
+                 beams, correction);
   evidence.way_scale = way_scale(straight_pairs);
   evidence.turn_scale = turn_scale_of_both(matched);
   if (evidence.turn_scale > 0.0 && std::abs(evidence.turn_scale - 1.0) > kOtherSize)

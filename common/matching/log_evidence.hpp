@@ -29,6 +29,8 @@ struct LogCorrection {
   double position_turn_rad = 0.0;      ///< Rotates positions about the origin, after mirroring.
   bool reverses_beams = false;         ///< The last beam is the first of the layout.
   double field_factor = 1.0;           ///< Factor on beam directions, in the laser's frame.
+  geometry::Pose2 odometry_from_base;  ///< Base in the frame of the pose that odometry gives,
+                                       ///< without heading: PoseCorrection takes it from there.
   double laser_turn_rad = 0.0;         ///< Added to the laser's heading in base.
 
   bool operator==(const LogCorrection&) const = default;
@@ -44,6 +46,7 @@ class PoseCorrection {
   geometry::Pose2 next(const LogCorrection& correction, const geometry::Pose2& recorded);
 
  private:
+  geometry::Pose2 turned(const LogCorrection& correction, const geometry::Pose2& recorded);
   geometry::Pose2 in_order(const LogCorrection& correction, const geometry::Pose2& recorded);
 
   std::optional<geometry::Pose2> last_recorded_;  ///< Last recorded pose, in metres and radians.
@@ -110,6 +113,7 @@ struct AssumedBeams {
   double first_beam_rad = 0.0;
   double beam_step_rad = 0.0;
   double laser_heading_rad = 0.0;  ///< In base.
+  geometry::Vector2 laser_in_base_m = geometry::Vector2::Zero();
 };
 
 /// Result of matching pairs of scans of a log.

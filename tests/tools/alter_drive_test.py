@@ -257,6 +257,22 @@ class Beams(AlteredDrive):
         self.assertEqual(list(reversed(readings(ROBOTLASER))), readings(altered))
         self.assertEqual(ROBOTLASER.scans()[0].layout, altered.scans()[0].layout)
 
+    def test_of_a_turned_scanner_are_moved_and_have_no_echo_where_it_did_not_look(self):
+        before = FLASER.scans()[0].ranges  # 22.5 degrees a beam
+        self.assertEqual((*before[2:], NO_ECHO, NO_ECHO), alter.scanner_turned(FLASER, 45.0).scans()[0].ranges)
+        self.assertEqual((NO_ECHO, *before[:-1]), alter.scanner_turned(FLASER, -22.5).scans()[0].ranges)
+
+    def test_of_the_vehicle_itself_are_near_in_every_scan(self):
+        altered = alter.own_body(carmen_drive.Drive(tuple(carmen_drive.parse(flaser_log(beams=100))), carmen_drive.NO_ECHO_M), 1)
+        near = [sum(number(word) < 0.5 for word in scan.ranges) for scan in altered.scans()]
+        self.assertEqual([19] * SCANS, near)
+
+    def test_of_a_scanner_that_hangs_repeat_the_last_ones(self):
+        numbered = iter(range(SCANS))
+        drive = FLASER.replaced(lambda record: record.with_ranges([str(next(numbered))] * 4) if isinstance(record, Scan) else record)
+        hung = [int(scan.ranges[0]) for scan in alter.hung(drive, 5.0, 8.0).scans()]
+        self.assertEqual([*range(11), *[10] * 6, *range(17, SCANS)], hung)
+
     def test_of_a_scanner_upside_down_have_left_and_right_changed(self):
         self.assertEqual(list(reversed(readings(ROBOTLASER))), readings(alter.upside_down(ROBOTLASER)))
 
@@ -362,6 +378,23 @@ class Odometry(AlteredDrive):
             self.assertEqual(SCANS, len(lines))
             self.assertGreater(lines[10].wheel_from_base[0], 1.05 * true_pose(STEP_S * 10)[0])
 
+    def test_held_changes_once_a_period(self):
+        altered = poses(alter.held(FLASER, 2.0))
+        times = FLASER.times()
+        for time_s, pose in zip(times, altered):
+            since_s = max(time for time in times if time <= time_s + 1e-9 and abs((time - times[0]) / 2.0 - round((time - times[0]) / 2.0)) < 1e-6)
+            self.assertEqual(poses(FLASER)[times.index(since_s)], pose)
+
+    def test_begun_anew_keeps_all_motions_but_one_each(self):
+        changed = [math.dist(before, after) > 1e-6 for before, after in zip(motions(FLASER), motions(alter.begun_anew(FLASER, 3)))]
+        self.assertEqual(3, sum(changed))
+        self.assertIn((0.0, 0.0, 0.0), poses(alter.begun_anew(FLASER, 3)))
+
+    def test_another_point_is_where_it_says(self):
+        for before, after in zip(poses(FLASER), poses(alter.of_another_point(FLASER, 1.0, 0.5))):
+            self.assertAlmostEqual(math.hypot(1.0, 0.5), math.dist(before[:2], after[:2]), places=6)
+            self.assertEqual(before[2], after[2])
+
     def test_window_is_where_the_vehicle_moves(self):
         standing = alter.frozen(FLASER, 6.0, 14.0)
         from_s, to_s = alter.moving_window(standing, 4.0)
@@ -454,7 +487,7 @@ class Copy(unittest.TestCase):
                 self.assertEqual(len(altered.scans()), len(written.scans()), way.name)
                 self.assertEqual(list(range(len(altered.scans()))), sorted(truth), way.name)
                 text = [record.text() for record in read.records]
-                without_effect = {"rooms": ("range-8m", "standing-wheels"), "drive": ("standing-wheels",)}[prefix]  # they are small, and short
+                without_effect = {"rooms": ("range-8m", "standing-wheels", "turned-5", "hung-6s"), "drive": ("standing-wheels", "turned-5", "hung-6s")}[prefix]  # they are small, short, and of few beams
                 self.assertTrue(way.name in without_effect or text != [record.text() for record in written.records], way.name)
 
 

@@ -143,6 +143,34 @@ def noise(drive, sigma_m, seed):
     return with_readings(drive, noisy)
 
 
+def own_body(drive, seed, noise_m=0.01):
+    """Three parts of the vehicle hide a fifth of the view: at both ends and in the middle, 0.30 to 0.42 m away."""
+    parts = ((0.0, 0.08, 0.35), (0.48, 0.52, 0.42), (0.93, 1.0, 0.30))
+
+    def hidden(scan, words):
+        draw, words = generator(seed, "own body", scan).gauss, list(words)
+        for first, end, range_m in parts:
+            for beam in range(int(first * len(words)), int(end * len(words))):
+                words[beam] = f"{range_m + draw(0.0, noise_m):.3f}"
+        return words
+    return with_readings(drive, hidden)
+
+
+def hung(drive, from_s, to_s):
+    """The scanner gives its last readings again and again; stamps and odometry go on."""
+    times = {id(record): time_s for record, time_s in zip(drive.odometry(), drive.times())}
+    last = [None]
+
+    def repeated(record):
+        if not isinstance(record, Scan):
+            return record
+        if last[0] is not None and from_s < times[id(record)] <= to_s:
+            return record.with_ranges(last[0])
+        last[0] = record.ranges
+        return record
+    return drive.replaced(repeated)
+
+
 def false_echoes(drive, share, seed, farthest_m=20.0):
     """So many beams end somewhere before what they would have met, evenly distributed."""
     def mistaken(scan, words):
@@ -279,6 +307,19 @@ def mounted_backwards(drive):
     return dataclasses.replace(drive, records=tuple(records), base_turn_rad=drive.base_turn_rad + math.pi)
 
 
+def scanner_turned(drive, degrees):
+    """The scanner looks so far to the left, unsaid, to a whole beam. Where it did not look there is no echo."""
+    none = no_echo_word(drive)
+
+    def turned(scan, words):
+        words = list(words)
+        beams = round(math.radians(degrees) / beams_of(scan)[1])
+        if beams >= 0:
+            return words[beams:] + [none] * min(beams, len(words))
+        return [none] * min(-beams, len(words)) + words[:beams]
+    return with_readings(drive, turned)
+
+
 # ---- odometry ----------------------------------------------------------------------------------------------------------------
 
 
@@ -379,6 +420,29 @@ def late(drive, lateness_s):
         share = (wanted_s - before_s) / (after_s - before_s) if after_s > before_s else 1.0
         poses.append(between(records[after - 1].wheel_from_base, records[after].wheel_from_base, share))
     return drive.with_odometry(poses)
+
+
+def held(drive, period_s):
+    """Odometry comes once in so many seconds; what is between has the pose that came last."""
+    kept, since_s, poses = None, -math.inf, []
+    for record, time_s in zip(drive.odometry(), drive.times()):
+        if time_s - since_s >= period_s - 1e-6:
+            kept, since_s = record.wheel_from_base, time_s
+        poses.append(kept)
+    return drive.with_odometry(poses)
+
+
+def begun_anew(drive, times):
+    """The source of the odometry is started again so many times, evenly over the drive, and counts from zero."""
+    records = drive.odometry()
+    part = -(-len(records) // (times + 1))
+    return drive.with_odometry([record.wheel_from_base if i < part else compound(inverse(records[i // part * part].wheel_from_base), record.wheel_from_base)
+                                for i, record in enumerate(records)])
+
+
+def of_another_point(drive, ahead_m, left_m):
+    """The poses are those of a point so far ahead and to the left of the vehicle's, unsaid: the laser's stay relative to them."""
+    return drive.with_odometry([compound(record.wheel_from_base, (ahead_m, left_m, 0.0)) for record in drive.odometry()])
 
 
 def odometry_scaled(drive, factor):

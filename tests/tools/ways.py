@@ -69,6 +69,12 @@ FURTHER = (
     Way("odometry-millimetres", "odometry in millimetres", lambda drive, seed: alter.odometry_scaled(drive, 1000.0), r"millimet"),
     Way("turns-slipping", "turns by the wheels 0.6x to 1.4x, another every 2 s", lambda drive, seed: alter.turns_slipping(drive, 0.4, seed), OF_ODOMETRY),
     Way("standing-wheels", "wheels stand for 1 s every 20 s", lambda drive, seed: alter.standing(drive, 1.0, 20.0), OF_ODOMETRY, takes_information=True),
+    Way("held-1s", "odometry comes once a second", lambda drive, seed: alter.held(drive, 1.0), takes_information=True),
+    Way("begun-anew", "odometry begins anew at zero six times", lambda drive, seed: alter.begun_anew(drive, 6)),
+    Way("another-point", "odometry of a point 1 m ahead, unsaid", lambda drive, seed: alter.of_another_point(drive, 1.0, 0.0)),
+    Way("turned-5", "scanner turned by 5 degrees, unsaid", lambda drive, seed: alter.scanner_turned(drive, 5.0), r"mounted turned"),
+    Way("own-body", "a fifth of the beams sees the vehicle", lambda drive, seed: alter.own_body(drive, seed), r"vehicle itself"),
+    Way("hung-6s", "scanner repeats its readings for 6 s", in_window(alter.hung), r"repeat the readings", takes_information=True),
     Way("second-source", "ODOM lines count 1.1x the way", lambda drive, seed: alter.second_source(drive, 1.1), OF_ODOMETRY),
 )
 BY_NAME = {way.name: way for way in STANDARD + FURTHER}

@@ -168,6 +168,27 @@ TEST_F(CarmenLogTest, LeavesOutOdomLinesThatContradictTheLaserRecords) {
   EXPECT_EQ(reading.order, "osos");
 }
 
+TEST_F(CarmenLogTest, InterpolatesPosesThatScansRepeat) {
+  std::string log;
+  for (int i = 0; i < 200; ++i) {
+    const std::string stamp = std::to_string(0.1 * i);
+    const std::string way = std::to_string(0.1 * (std::max(0, i - 100) / 4 * 4));
+    log += FlaserLine{.pose = way + " 0 0", .ipc = "100" + stamp, .logger = stamp}.text();
+  }
+  const Reading reading = read(log);
+  ASSERT_EQ(reading.odometry.size(), 200U);
+  for (std::size_t i = 0; i < 190; ++i) {
+    const double way_m = 0.1 * std::max(0.0, static_cast<double>(i) - 100.0);
+    EXPECT_NEAR(reading.odometry[i].wheel_from_base.x_m, way_m, 0.25) << i;
+    EXPECT_EQ(reading.odometry[i].stamp_ns, reading.scans[i].stamp_ns);
+  }
+  for (std::size_t i = 110; i < 190; ++i)
+    EXPECT_NEAR(
+        reading.odometry[i].wheel_from_base.x_m - reading.odometry[i - 1].wheel_from_base.x_m, 0.1,
+        1e-6)
+        << i;
+}
+
 TEST_F(CarmenLogTest, InterpolatesOdomLinesForScansWhoseOwnPoseStandsStill) {
   const Reading reading = read("ODOM 0 0 0 0 0 0 1.0 h 0\n" + FlaserLine{.ipc = "1.25"}.text() +
                                "ODOM 1 0 0 0 0 0 2.0 h 0\n" + FlaserLine{.ipc = "2.5"}.text());

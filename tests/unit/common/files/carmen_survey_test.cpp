@@ -179,6 +179,23 @@ OdometrySource odometry_source(double laser_step_m, double odom_step_m) {
   return survey.conclude(pi).odometry;
 }
 
+TEST(CarmenSurvey, TellsOdometryThatComesLessOftenThanScans) {
+  const auto held_scans = [](int every, int stands_for) {
+    CarmenSurvey survey;
+    for (int i = 0; i < 200; ++i) {
+      LaserRecord record = scan_of_drive({}, i);
+      const int moved = std::max(0, i - stands_for);
+      record.wheel_from_base = {0.1 * (moved / every * every), 0.0, 0.0};
+      survey.add(record);
+    }
+    return survey.conclude(pi).odometry_held_scans;
+  };
+  EXPECT_EQ(held_scans(1, 0), 0U);
+  EXPECT_EQ(held_scans(1, 150), 0U) << "it stands for most of the drive";
+  EXPECT_EQ(held_scans(4, 0), 7U) << "three repeat one";
+  EXPECT_EQ(held_scans(4, 80), 7U);
+}
+
 TEST(CarmenSurvey, UsesOdomLinesOnlyWhereTheyDoNotContradictTheLaserRecords) {
   EXPECT_EQ(odometry_source(0.1, 0.1), OdometrySource::kBoth);
   EXPECT_EQ(odometry_source(0.1, 0.5), OdometrySource::kLaserRecords);

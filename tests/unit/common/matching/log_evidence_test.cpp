@@ -192,6 +192,24 @@ TEST(WeighLog, DoesNotTakeNoiseOfOdometryForTurnsOfAnotherSize) {
   EXPECT_NEAR(evidence.turn_scale, 1.0, 0.1);
 }
 
+TEST(WeighLog, FindsAScannerThatIsTurnedALittle) {
+  EXPECT_NEAR(evidence_of({.looks_rad = 0.1}).correction.laser_turn_rad, 0.1, 0.02);
+  EXPECT_EQ(evidence_of({.looks_rad = 0.005}).correction.laser_turn_rad, 0.0);
+}
+
+TEST(WeighLog, FindsThePointThatOdometrySpeaksOf) {
+  const Pose2 base_from_odometry{-1.2, 0.5, 0.0};
+  const LogEvidence evidence =
+      evidence_of({.pose = [&](const Pose2& pose) { return pose * base_from_odometry; }});
+  EXPECT_THAT(evidence.correction.odometry_from_base, PoseNear(Pose2{1.2, -0.5, 0.0}, 0.1));
+  EXPECT_EQ(evidence.correction.laser_turn_rad, 0.0);
+  PoseCorrection correction;
+  for (const Pose2& pose : drive())
+    EXPECT_THAT(correction.next({.odometry_from_base = inverse(base_from_odometry)},
+                                pose * base_from_odometry),
+                PoseNear(pose, 1e-9));
+}
+
 TEST(PoseCorrection, GivesTurnsTheirSizeBack) {
   auto recorded = turned_more(1.3);
   PoseCorrection correction;
