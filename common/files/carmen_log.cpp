@@ -286,10 +286,10 @@ void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int6
                                     // second one it counts as far ahead
     return;
   }
-  if (plan_.odometry_late_s != 0.0 || plan_.odometry_held_scans > 0) {
+  if (waits_for_odometry()) {
     if (wheel_from_base && plan_.odometry != OdometrySource::kOdomLines &&
         is_fresh(*wheel_from_base))
-      keep_odometry({stamp - lateness_ns(), *wheel_from_base});
+      smooth_and_keep({stamp - lateness_ns(), *wheel_from_base});
     waiting_.push_back(std::move(scan));
     return put_waiting_scans(kMaxWaitingScans);
   }
@@ -313,8 +313,8 @@ void CarmenLog::take(const OdometryRecord& record) {
       has_replaced_stamps() ? odometry_stamp_by_order_ns() : recorded_stamp_ns(record.stamps);
   if (!stamp) return has_replaced_stamps() ? void() : note_malformed();
   if (!odometry_stamps_.believes(*stamp) ||
-      !keep_odometry({*stamp - lateness_ns(),
-                      pose_correction_.next(plan_.evidence.correction, record.wheel_from_base)})) {
+      !smooth_and_keep({*stamp - lateness_ns(), pose_correction_.next(plan_.evidence.correction,
+                                                                      record.wheel_from_base)})) {
     ++faults_.stale_odometry;
     return;
   }
@@ -345,6 +345,22 @@ void CarmenLog::take(const ImuRecord& record) {
   if (has_replaced_stamps()) return void(++faults_.ignored_lines);
   if (!stamp) return note_malformed();
   if (gyro_stamps_.believes(*stamp)) gyro_.add({*stamp, record.yaw_rate_radps});
+}
+
+/// Whether odometry that follows tells what it is at a scan.
+bool CarmenLog::waits_for_odometry() const {
+  return plan_.odometry_late_s != 0.0 || plan_.odometry_held_scans > 0 ||
+         plan_.odometry_smoothed_over > 0;
+}
+
+/// Returns false unless it is newer than those before.
+bool CarmenLog::smooth_and_keep(const sensing::Odometry& odometry) {
+  if (plan_.odometry_smoothed_over == 0) return keep_odometry(odometry);
+  if (!smoother_) smoother_.emplace(plan_.odometry_smoothed_over);
+  if (newest_to_smooth_ns_ && odometry.stamp_ns <= *newest_to_smooth_ns_) return false;
+  newest_to_smooth_ns_ = odometry.stamp_ns;
+  if (const auto smoothed = smoother_->add(odometry)) keep_odometry(*smoothed);
+  return true;
 }
 
 /// Whether a scan's pose is not a repeated one. One that is repeated for long is: the vehicle
@@ -380,6 +396,8 @@ void CarmenLog::finish_reading() {
   faults_.is_cut = records_->is_cut() || last_line_is_broken;
   faults_.damage = records_->damage();
   merge_scans(0);
+  while (const auto smoothed = smoother_ ? smoother_->finish() : std::nullopt)
+    keep_odometry(*smoothed);
   put_waiting_scans(0);
   if (!survey_) return;
   const LogPlan plan = survey_->conclude(options_.fallback_field_of_view_rad,

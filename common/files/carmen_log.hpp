@@ -20,6 +20,7 @@
 #include "common/files/result.hpp"
 #include "common/files/topic_choice.hpp"
 #include "common/sensing/gyro_odometry.hpp"
+#include "common/sensing/pose_smoother.hpp"
 #include "common/sensing/scan.hpp"
 #include "common/sensing/stamp_guard.hpp"
 
@@ -144,6 +145,8 @@ class CarmenLog {
   sensing::LaserScan scan_of(LaserRecord record, std::size_t scanner, std::int64_t stamp_ns) const;
   void correct(sensing::LaserScan& scan, std::size_t scanner) const;
   bool has_beams_of_the_main_one(std::size_t scanner) const;
+  bool waits_for_odometry() const;
+  bool smooth_and_keep(const sensing::Odometry& odometry);
   bool is_fresh(const geometry::Pose2& wheel_from_base);
   std::int64_t lateness_ns() const;
   bool keep_odometry(const sensing::Odometry& odometry);
@@ -186,6 +189,8 @@ class CarmenLog {
   std::optional<sensing::Odometry> newest_odometry_;  // handed out
   std::optional<geometry::Pose2> held_pose_;          // of the last scan
   std::size_t held_scans_ = 0;
+  std::optional<sensing::PoseSmoother> smoother_;
+  std::optional<std::int64_t> newest_to_smooth_ns_;
   matching::PoseCorrection pose_correction_;  // of poses in the order of the log
   sensing::GyroOdometry gyro_;
 };

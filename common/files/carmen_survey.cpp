@@ -272,6 +272,7 @@ void CarmenSurvey::add_laser(const LaserRecord& record) {
                                                               record.wheel_from_base, 1e-9, 1e-9));
   lasers.poses.push_back(pose);
   lasers.held_poses.add(record.wheel_from_base);
+  lasers.pose_noise.add(record.wheel_from_base);
   lasers.own_body.add(record.range_m);
   lasers.odometry_check.add(record.wheel_from_base);
   const geometry::Pose2& recorded =
@@ -301,6 +302,7 @@ void CarmenSurvey::add_odom(const OdometryRecord& record) {
       lines.pose_changes || differ(*lines.first_pose, record.wheel_from_base, 1e-9, 1e-9);
   lines.last_pose = record.wheel_from_base;
   lines.check.add(record.wheel_from_base);
+  lines.noise.add(record.wheel_from_base);
   for (Lasers& lasers : lasers_) ++lasers.lines_between[kind].since_scan;
   if (record.kind == odometry_lines()) {
     newest_odom_by_order_ = {lines_, record.wheel_from_base};
@@ -486,6 +488,7 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
     plan.odom_lines_before_scan =
         lasers.lines_between[static_cast<std::size_t>(plan.odometry_lines)].before_scan;
   plan.figures = figures(lasers, plan, fallback_field_of_view_rad);
+  treat_noise_of_odometry(lasers, plan);
   if (lasers.scans == 0) return plan;
   for (const Lasers& scanner : scanners) {
     plan.scanners.push_back(scanner_plan(scanner));
@@ -564,6 +567,52 @@ double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& pl
   }
   return matching::odometry_lateness_s(plan.evidence.motions, odometry,
                                        {plan.evidence.way_scale, plan.evidence.turn_scale});
+}
+
+void CarmenSurvey::PoseNoise::add(const geometry::Pose2& recorded) {
+  constexpr double kMoves_m = 5e-3;
+  constexpr double kMost_m = 0.5;  // a jump is not noise
+  const auto before = std::exchange(last_, recorded);
+  if (!before) return;
+  const geometry::Vector2 step_m = (inverse(*before) * recorded).translation_m();
+  const auto last_step_m = std::exchange(last_step_m_, step_m);
+  if (!last_step_m || step_m.norm() < kMoves_m) return;
+  changes_m_ += std::min(std::abs(step_m.y() - last_step_m->y()), kMost_m);
+  ++steps_;
+}
+
+double CarmenSurvey::PoseNoise::mean_m() const {
+  constexpr std::size_t kFewestSteps = 50;
+  return steps_ < kFewestSteps ? 0.0 : changes_m_ / static_cast<double>(steps_);
+}
+
+/// Of noisy odometry that comes often: localization would take its noise for slip. What is left of
+/// much noise is correlated from scan to scan, and worse than none where scans come so often that
+/// they suffice.
+void CarmenSurvey::treat_noise_of_odometry(const Lasers& lasers, LogPlan& plan) const {
+  constexpr double kLongestPeriod_s = 0.1;
+  constexpr double kFrequentScans_s = 0.04;
+  constexpr double kWindow_s = 0.5;
+  constexpr double kNoise_m = 1.5e-3;  // wheels are below 0.3 mm
+  constexpr double kMuchNoise_m = 8e-3;
+  const matching::LogCorrection& correction = plan.evidence.correction;
+  const bool is_in_units = correction.way_unit_m == 1.0 && correction.heading_unit_rad == 1.0 &&
+                           !correction.mirrors_position && !correction.mirrors_heading;
+  if (!plan.figures.has_clock || !is_in_units || plan.odometry == OdometrySource::kNone ||
+      plan.odometry_held_scans > 0)
+    return;
+  const OdometryLines& lines = chosen_odometry_lines();
+  const bool is_in_lines = plan.odometry == OdometrySource::kOdomLines;
+  const double period_s = is_in_lines ? plan.figures.duration_s / static_cast<double>(lines.count)
+                                      : plan.figures.scan_period_s;
+  const double noise_m = (is_in_lines ? lines.noise : lasers.pose_noise).mean_m();
+  if (!(period_s > 0.0 && period_s <= kLongestPeriod_s) || noise_m < kNoise_m) return;
+  plan.odometry_is_too_noisy =
+      noise_m > kMuchNoise_m && plan.figures.scan_period_s <= kFrequentScans_s;
+  if (plan.odometry_is_too_noisy) plan.odometry = OdometrySource::kNone;
+  else
+    plan.odometry_smoothed_over = static_cast<std::size_t>(std::ceil(0.5 * kWindow_s / period_s));
+  if (plan.odometry == OdometrySource::kBoth) plan.odometry = OdometrySource::kLaserRecords;
 }
 
 /// A pair begins at the end of the one before; if there are too many pairs, every other one is

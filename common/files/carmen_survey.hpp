@@ -112,6 +112,9 @@ struct LogPlan {
   std::size_t odometry_held_scans = 0;  ///< Odometry comes less often than scans, which repeat its
                                         ///< last pose, at most for so many scans while the vehicle
                                         ///< moves: between them it is interpolated. 0: with each.
+  std::size_t odometry_smoothed_over = 0;  ///< Odometry is noisy from one to the next: each is
+                                           ///< smoothed over so many on either side. 0: as it is.
+  bool odometry_is_too_noisy = false;      ///< Therefore it is not used.
   double odometry_late_s = 0.0;  ///< Lateness of its stamps against the scans; removed on reading.
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;  ///< Readings at or beyond it are "no echo"; a scan's own record may
@@ -190,6 +193,20 @@ class CarmenSurvey {
     std::vector<double> repeats_before_change_;
   };
 
+  /// How much the sideways part of odometry's steps changes from one to the next: wheels do not
+  /// jump aside, so that this is noise or rounding.
+  class PoseNoise {
+   public:
+    void add(const geometry::Pose2& recorded);
+    double mean_m() const;  ///< 0 of few steps.
+
+   private:
+    std::optional<geometry::Pose2> last_;
+    std::optional<geometry::Vector2> last_step_m_;
+    double changes_m_ = 0.0;
+    std::size_t steps_ = 0;
+  };
+
   /// Sample of scan pairs with little motion in between, spread over the log, limited in number.
   class PairSample {
    public:
@@ -244,6 +261,7 @@ class CarmenSurvey {
     AgreementCheck agreement_by_order;  // by the lines' order in the log
     bool pose_changes = false;
     HeldPoses held_poses;
+    PoseNoise pose_noise;
     std::uint64_t readings = 0;
     std::uint64_t scans_without_readings = 0;
     std::vector<std::uint32_t> readings_by_unit;  // as written, whatever the unit
@@ -276,6 +294,7 @@ class CarmenSurvey {
     geometry::Pose2 last_pose;
     bool pose_changes = false;
     matching::OdometryCheck check;
+    PoseNoise noise;
   };
 
   Lasers& lasers_of(const LaserRecord& record);
@@ -290,6 +309,7 @@ class CarmenSurvey {
   double max_range_m(const Lasers& lasers) const;
   static void convert_readings(Lasers& lasers, double unit_m);
   double odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const;
+  void treat_noise_of_odometry(const Lasers& lasers, LogPlan& plan) const;
   matching::LogEvidence weigh(const Lasers& lasers, const LogPlan& plan,
                               double fallback_field_of_view_rad) const;
   std::vector<sensing::ScanMark> scan_marks(const Lasers& lasers,

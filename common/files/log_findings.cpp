@@ -129,7 +129,15 @@ void describe_doubts(const LogPlan& plan, std::vector<std::string>& findings) {
   if (plan.odometry_held_scans > 0 && plan.odometry != OdometrySource::kNone)
     findings.emplace_back(
         "odometry comes less often than scans, which repeat its last pose: interpolated");
-  if (plan.odometry == OdometrySource::kNone)
+  if (plan.odometry_smoothed_over > 0)
+    findings.push_back(
+        text("odometry is noisy or rounded from one pose to the next: smoothed over %zu",
+             2 * plan.odometry_smoothed_over + 1));
+  if (plan.odometry_is_too_noisy)
+    findings.emplace_back(
+        "odometry is too noisy or rounded from one pose to the next: not used, scans alone say how "
+        "the vehicle moves");
+  else if (plan.odometry == OdometrySource::kNone)
     findings.emplace_back("there is no odometry: scans alone say how the vehicle moves");
   if (evidence.pairs > 0 && evidence.matched_share < kMostlyMatched)
     findings.push_back(

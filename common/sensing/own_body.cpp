@@ -8,12 +8,12 @@ namespace slammot::sensing {
 namespace {
 
 constexpr std::size_t kFewestViews = 30;
-constexpr float kChange = 0.05F;        // of a reading, between two views
-constexpr double kChangedShare = 0.4;   // of the beams with an echo in both
-constexpr double kFarthest_m = 3.0;     // no vehicle sees itself farther away
-constexpr double kTolerance_m = 0.03;   // of a rigid part,
-constexpr double kTolerance = 0.02;     // and of its distance
-constexpr double kConstantShare = 0.9;  // of the views: the rest are failed readings
+constexpr float kChange = 0.05F;         // of a reading, between two views
+constexpr double kChangedShare = 0.4;    // of the beams with an echo in both
+constexpr double kFarthestPart_m = 3.0;  // no vehicle sees itself farther away
+constexpr double kTolerance_m = 0.03;    // of a rigid part,
+constexpr double kTolerance = 0.02;      // and of its distance
+constexpr double kConstantShare = 0.9;   // of the views: the rest are failed readings
 
 bool is_reading(float reading) { return reading > 0.0F && std::isfinite(reading); }
 
@@ -88,7 +88,7 @@ OwnBody OwnBodySurvey::conclude(double unit_m) const {
       if (is_reading(view[beam])) readings.push_back(view[beam]);
     usual[beam] = usual_of(readings, views_.size(), unit_m);
     const double reading = usual[beam].reading;
-    if (usual[beam].share < kConstantShare || reading * unit_m > kFarthest_m) continue;
+    if (usual[beam].share < kConstantShare || reading * unit_m > kFarthestPart_m) continue;
     body.reach[beam] = static_cast<float>(reading + tolerance_of(reading, unit_m));
   }
   if (body.beams() == 0) return {};

@@ -168,6 +168,29 @@ TEST_F(CarmenLogTest, LeavesOutOdomLinesThatContradictTheLaserRecords) {
   EXPECT_EQ(reading.order, "osos");
 }
 
+TEST_F(CarmenLogTest, SmoothsNoisyPoses) {
+  std::string log;
+  for (int i = 0; i < 200; ++i) {
+    const std::string stamp = std::to_string(0.025 * i);
+    const std::string pose =
+        std::to_string(0.1 * i) + " " + std::to_string(0.001 * (i * i % 7 - 3)) + " 0";
+    log +=
+        FlaserLine{.pose = pose, .ipc = std::to_string(1000.0 + 0.025 * i), .logger = stamp}.text();
+  }
+  const Reading reading = read(log);
+  EXPECT_EQ(reading.plan.odometry_smoothed_over, 10U);
+  ASSERT_EQ(reading.odometry.size(), 200U);
+  ASSERT_EQ(reading.scans.size(), 200U);
+  for (std::size_t i = 20; i < 180; ++i) {
+    EXPECT_EQ(reading.odometry[i].stamp_ns, reading.scans[i].stamp_ns);
+    EXPECT_NEAR(reading.odometry[i].wheel_from_base.x_m, 0.1 * static_cast<double>(i), 1e-6);
+    EXPECT_NEAR(
+        reading.odometry[i].wheel_from_base.y_m - reading.odometry[i - 1].wheel_from_base.y_m, 0.0,
+        3e-4)
+        << i;
+  }
+}
+
 TEST_F(CarmenLogTest, InterpolatesPosesThatScansRepeat) {
   std::string log;
   for (int i = 0; i < 200; ++i) {

@@ -196,6 +196,32 @@ TEST(CarmenSurvey, TellsOdometryThatComesLessOftenThanScans) {
   EXPECT_EQ(held_scans(4, 80), 7U);
 }
 
+TEST(CarmenSurvey, SmoothsNoisyOdometryAndDoesNotUseWhatIsTooNoisy) {
+  const auto plan_with = [](double noise_m, std::int64_t period_ns) {
+    CarmenSurvey survey;
+    for (int i = 0; i < 200; ++i) {
+      LaserRecord record = scan_of_drive({.period_ns = period_ns}, i);
+      record.wheel_from_base.y_m = noise_m * (i * i % 7 - 3) / 3.0;
+      survey.add(record);
+    }
+    return survey.conclude(pi);
+  };
+  constexpr std::int64_t kOften = kSecond / 40;
+  const LogPlan sound = plan_with(1e-5, kOften);
+  EXPECT_EQ(sound.odometry_smoothed_over, 0U);
+  EXPECT_EQ(sound.odometry, OdometrySource::kLaserRecords);
+  const LogPlan noisy = plan_with(3e-3, kOften);
+  EXPECT_EQ(noisy.odometry_smoothed_over, 10U);
+  EXPECT_EQ(noisy.odometry, OdometrySource::kLaserRecords);
+  const LogPlan too_noisy = plan_with(3e-2, kOften);
+  EXPECT_TRUE(too_noisy.odometry_is_too_noisy);
+  EXPECT_EQ(too_noisy.odometry, OdometrySource::kNone);
+  const LogPlan at_ten_hertz = plan_with(3e-2, kSecond / 10);
+  EXPECT_EQ(at_ten_hertz.odometry_smoothed_over, 3U) << "scans alone do not suffice";
+  EXPECT_EQ(at_ten_hertz.odometry, OdometrySource::kLaserRecords);
+  EXPECT_EQ(plan_with(3e-2, kSecond).odometry_smoothed_over, 0U) << "a robot with rare scans";
+}
+
 TEST(CarmenSurvey, UsesOdomLinesOnlyWhereTheyDoNotContradictTheLaserRecords) {
   EXPECT_EQ(odometry_source(0.1, 0.1), OdometrySource::kBoth);
   EXPECT_EQ(odometry_source(0.1, 0.5), OdometrySource::kLaserRecords);
