@@ -488,7 +488,7 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
     plan.odom_lines_before_scan =
         lasers.lines_between[static_cast<std::size_t>(plan.odometry_lines)].before_scan;
   plan.figures = figures(lasers, plan, fallback_field_of_view_rad);
-  treat_noise_of_odometry(lasers, plan);
+  treat_poor_odometry(lasers, plan);
   if (lasers.scans == 0) return plan;
   for (const Lasers& scanner : scanners) {
     plan.scanners.push_back(scanner_plan(scanner));
@@ -586,33 +586,41 @@ double CarmenSurvey::PoseNoise::mean_m() const {
   return steps_ < kFewestSteps ? 0.0 : changes_m_ / static_cast<double>(steps_);
 }
 
-/// Of noisy odometry that comes often: localization would take its noise for slip. What is left of
-/// much noise is correlated from scan to scan, and worse than none where scans come so often that
-/// they suffice.
-void CarmenSurvey::treat_noise_of_odometry(const Lasers& lasers, LogPlan& plan) const {
-  constexpr double kLongestPeriod_s = 0.1;
+/// Noisy odometry looks like slip, and between samples that come seldom a car brakes and turns.
+/// What smoothing and interpolation leave of that is correlated from scan to scan, and worse than
+/// no odometry where scans come so often that they suffice.
+void CarmenSurvey::treat_poor_odometry(const Lasers& lasers, LogPlan& plan) const {
   constexpr double kFrequentScans_s = 0.04;
+  constexpr double kLongestPeriod_s = 0.1;
   constexpr double kWindow_s = 0.5;
   constexpr double kNoise_m = 1.5e-3;  // wheels are below 0.3 mm
   constexpr double kMuchNoise_m = 8e-3;
+  constexpr double kRare_s = 0.5;  // twice what nine of ten samples come after
   const matching::LogCorrection& correction = plan.evidence.correction;
   const bool is_in_units = correction.way_unit_m == 1.0 && correction.heading_unit_rad == 1.0 &&
                            !correction.mirrors_position && !correction.mirrors_heading;
-  if (!plan.figures.has_clock || !is_in_units || plan.odometry == OdometrySource::kNone ||
-      plan.odometry_held_scans > 0)
-    return;
+  if (!plan.figures.has_clock || !is_in_units || plan.odometry == OdometrySource::kNone) return;
   const OdometryLines& lines = chosen_odometry_lines();
   const bool is_in_lines = plan.odometry == OdometrySource::kOdomLines;
-  const double period_s = is_in_lines ? plan.figures.duration_s / static_cast<double>(lines.count)
-                                      : plan.figures.scan_period_s;
+  const double scan_period_s = plan.figures.scan_period_s;
+  const double period_s =
+      is_in_lines ? plan.figures.duration_s / static_cast<double>(lines.count) : scan_period_s;
   const double noise_m = (is_in_lines ? lines.noise : lasers.pose_noise).mean_m();
-  if (!(period_s > 0.0 && period_s <= kLongestPeriod_s) || noise_m < kNoise_m) return;
-  plan.odometry_is_too_noisy =
-      noise_m > kMuchNoise_m && plan.figures.scan_period_s <= kFrequentScans_s;
-  if (plan.odometry_is_too_noisy) plan.odometry = OdometrySource::kNone;
-  else
+  const double held_s = static_cast<double>(plan.odometry_held_scans) * scan_period_s;
+  const bool is_held = plan.odometry_held_scans > 0 && !is_in_lines;
+  const bool is_noisy =
+      !is_held && period_s > 0.0 && period_s <= kLongestPeriod_s && noise_m > kNoise_m;
+  const bool scans_suffice = scan_period_s <= kFrequentScans_s;
+  plan.odometry_is_too_noisy = scans_suffice && is_noisy && noise_m > kMuchNoise_m;
+  plan.odometry_is_too_rare = scans_suffice && is_held && held_s > kRare_s;
+  if (plan.odometry_is_too_noisy || plan.odometry_is_too_rare) {
+    plan.odometry = OdometrySource::kNone;
+    plan.odometry_late_s = 0.0;
+    plan.odometry_held_scans = 0;
+  } else if (is_noisy) {
     plan.odometry_smoothed_over = static_cast<std::size_t>(std::ceil(0.5 * kWindow_s / period_s));
-  if (plan.odometry == OdometrySource::kBoth) plan.odometry = OdometrySource::kLaserRecords;
+    if (plan.odometry == OdometrySource::kBoth) plan.odometry = OdometrySource::kLaserRecords;
+  }
 }
 
 /// A pair begins at the end of the one before; if there are too many pairs, every other one is

@@ -114,7 +114,8 @@ struct LogPlan {
                                         ///< moves: between them it is interpolated. 0: with each.
   std::size_t odometry_smoothed_over = 0;  ///< Odometry is noisy from one to the next: each is
                                            ///< smoothed over so many on either side. 0: as it is.
-  bool odometry_is_too_noisy = false;      ///< Therefore it is not used.
+  bool odometry_is_too_noisy = false;      ///< Therefore it is not used,
+  bool odometry_is_too_rare = false;       ///< or therefore.
   double odometry_late_s = 0.0;  ///< Lateness of its stamps against the scans; removed on reading.
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;  ///< Readings at or beyond it are "no echo"; a scan's own record may
@@ -309,7 +310,7 @@ class CarmenSurvey {
   double max_range_m(const Lasers& lasers) const;
   static void convert_readings(Lasers& lasers, double unit_m);
   double odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const;
-  void treat_noise_of_odometry(const Lasers& lasers, LogPlan& plan) const;
+  void treat_poor_odometry(const Lasers& lasers, LogPlan& plan) const;
   matching::LogEvidence weigh(const Lasers& lasers, const LogPlan& plan,
                               double fallback_field_of_view_rad) const;
   std::vector<sensing::ScanMark> scan_marks(const Lasers& lasers,

@@ -133,10 +133,11 @@ void describe_doubts(const LogPlan& plan, std::vector<std::string>& findings) {
     findings.push_back(
         text("odometry is noisy or rounded from one pose to the next: smoothed over %zu",
              2 * plan.odometry_smoothed_over + 1));
-  if (plan.odometry_is_too_noisy)
-    findings.emplace_back(
-        "odometry is too noisy or rounded from one pose to the next: not used, scans alone say how "
-        "the vehicle moves");
+  if (plan.odometry_is_too_noisy || plan.odometry_is_too_rare)
+    findings.push_back(text("odometry %s: not used, scans alone say how the vehicle moves",
+                            plan.odometry_is_too_rare
+                                ? "comes too seldom"
+                                : "is too noisy or rounded from one pose to the next"));
   else if (plan.odometry == OdometrySource::kNone)
     findings.emplace_back("there is no odometry: scans alone say how the vehicle moves");
   if (evidence.pairs > 0 && evidence.matched_share < kMostlyMatched)

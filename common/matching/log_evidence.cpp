@@ -198,7 +198,8 @@ double turn_scale_of_both(const std::vector<MatchedPair>& matched) {
   for (MatchedPair& pair : by_scans) std::swap(pair.by_odometry, pair.by_scans);
   const double of_odometry = turn_scale(turning(matched));
   const double of_scans = turn_scale(turning(by_scans));
-  if (!(of_odometry > 0.0 && of_scans > 0.0)) return of_odometry;
+  if (of_odometry <= 0.0 || of_scans == 0.0) return of_odometry;
+  if (of_scans < 0.0) return 0.0;
   const double inverse = 1.0 / of_scans;
   if ((of_odometry > 1.0) != (inverse > 1.0)) return 1.0;
   return of_odometry > 1.0 ? std::min(of_odometry, inverse) : std::max(of_odometry, inverse);

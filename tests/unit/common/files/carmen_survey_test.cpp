@@ -196,6 +196,24 @@ TEST(CarmenSurvey, TellsOdometryThatComesLessOftenThanScans) {
   EXPECT_EQ(held_scans(4, 80), 7U);
 }
 
+TEST(CarmenSurvey, DoesWithoutOdometryThatComesSeldomWhereScansComeOften) {
+  const auto plan_with = [](int every, std::int64_t period_ns) {
+    CarmenSurvey survey;
+    for (int i = 0; i < 1000; ++i) {
+      LaserRecord record = scan_of_drive({.period_ns = period_ns}, i);
+      record.wheel_from_base = {0.1 * (i / every * every), 0.0, 0.0};
+      survey.add(record);
+    }
+    return survey.conclude(pi);
+  };
+  const LogPlan rare = plan_with(30, kSecond / 40);
+  EXPECT_TRUE(rare.odometry_is_too_rare);
+  EXPECT_EQ(rare.odometry, OdometrySource::kNone);
+  EXPECT_EQ(rare.odometry_held_scans, 0U);
+  EXPECT_EQ(plan_with(4, kSecond / 40).odometry, OdometrySource::kLaserRecords);
+  EXPECT_EQ(plan_with(30, kSecond / 10).odometry, OdometrySource::kLaserRecords);
+}
+
 TEST(CarmenSurvey, SmoothsNoisyOdometryAndDoesNotUseWhatIsTooNoisy) {
   const auto plan_with = [](double noise_m, std::int64_t period_ns) {
     CarmenSurvey survey;
