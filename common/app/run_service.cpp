@@ -82,6 +82,7 @@ int serve(const ServiceDescription& description, const ServiceOptions& options) 
   std::optional<Standby> standby;
   if (description.is_one_per_vehicle) {
     standby.emplace(context, description.keeps_state ? &lock : nullptr);
+    if (description.prepare) description.prepare(context);
     if (!standby->wait_until_it_leads()) return context.exit_code();
   }
   if (!lock.reason().empty()) watch(lock, context);

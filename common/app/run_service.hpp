@@ -29,9 +29,10 @@ struct ServiceDescription {
   std::vector<config::BoundStage> stages;
   std::function<void(CLI::App&)> add_options;
   std::function<std::shared_ptr<void>(ServiceContext&)> make;
-  bool is_one_per_vehicle = false;  ///< A second process of it stands by.
-  bool keeps_state = false;         ///< In the state directory, which is locked.
-  bool gives_way = false;           ///< To the services on the way of a scan.
+  std::function<void(ServiceContext&)> prepare;  ///< Of a standby; may be empty.
+  bool is_one_per_vehicle = false;               ///< A second process of it stands by.
+  bool keeps_state = false;                      ///< In the state directory, which is locked.
+  bool gives_way = false;                        ///< To the services on the way of a scan.
 };
 
 /// Runs a service: command line, configuration, log, signals, bus, loop, exit.
@@ -39,6 +40,10 @@ int run_service(int argc, char** argv, const ServiceDescription& description);
 
 template <typename Service>
 concept IsOnePerVehicle = Service::kIsOnePerVehicle;
+template <typename Service>
+concept PreparesInputs = requires(ServiceContext& context) {
+  Service::prepare(context);
+};
 template <typename Service>
 concept KeepsState = Service::kKeepsState;
 template <typename Service>
@@ -51,19 +56,23 @@ concept GivesWay = Service::kGivesWay;
 ///   static void add_options(CLI::App&, Settings&),
 ///   Service(ServiceContext&, const Settings&)
 ///                                        which says what it reads, writes and does periodically,
-/// and, where it is true, static constexpr bool kIsOnePerVehicle, kKeepsState, kGivesWay.
+/// and, where it is true, static constexpr bool kIsOnePerVehicle, kKeepsState, kGivesWay, and for a
+/// standby
+///   static void prepare(ServiceContext&)  the topics that it needs the history of.
 template <typename Service>
 int run_service(int argc, char** argv) {
   typename Service::Settings settings;
-  const ServiceDescription description{
-      Service::kName,
-      Service::kPurpose,
-      Service::stages(settings),
-      [&](CLI::App& command_line) { Service::add_options(command_line, settings); },
-      [&](ServiceContext& context) { return std::make_shared<Service>(context, settings); },
-      IsOnePerVehicle<Service>,
-      KeepsState<Service>,
-      GivesWay<Service>};
+  ServiceDescription description{
+      .name = Service::kName,
+      .purpose = Service::kPurpose,
+      .stages = Service::stages(settings),
+      .add_options = [&](CLI::App& command_line) { Service::add_options(command_line, settings); },
+      .make = [&](ServiceContext& context) { return std::make_shared<Service>(context, settings); },
+      .prepare = {},
+      .is_one_per_vehicle = IsOnePerVehicle<Service>,
+      .keeps_state = KeepsState<Service>,
+      .gives_way = GivesWay<Service>};
+  if constexpr (PreparesInputs<Service>) description.prepare = Service::prepare;
   return run_service(argc, argv, description);
 }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,7 +62,8 @@ class ServiceContext {
   template <typename Sample, typename Handle>
   dds::Reader<Sample>& read(const dds::Topic<Sample>& topic, Input kind, Handle handle,
                             dds::History history = dds::History::kProfile) {
-    const auto reader = std::make_shared<dds::Reader<Sample>>(participant_, topic, history);
+    auto reader = take_prepared(topic);
+    if (!reader) reader = std::make_shared<dds::Reader<Sample>>(participant_, topic, history);
     InputWatch& input =
         board_.input(std::string(topic.name), kind, std::chrono::steady_clock::now());
     const auto owners =
@@ -91,6 +93,25 @@ class ServiceContext {
     });
     keep(reader);
     return *reader;
+  }
+
+  /// Opens the reader that read() of this topic will use: what a standby will need is here when it
+  /// takes over, and need not come from the bus.
+  template <typename Sample>
+  void prepare(const dds::Topic<Sample>& topic, dds::History history) {
+    prepared_[std::string(topic.name)] =
+        std::make_shared<dds::Reader<Sample>>(participant_, topic, history);
+  }
+
+  /// Calls handle(sample) for what came of a prepared topic meanwhile, the last ones, and closes
+  /// it.
+  template <typename Sample, typename Handle>
+  void take_up(const dds::Topic<Sample>& topic, Handle handle) {
+    const auto reader = take_prepared(topic);
+    if (!reader) return;
+    reader->take_each([&](const Sample& sample) {
+      if (vehicle_id() == sample.vehicle_id) handle(sample);
+    });
   }
 
   /// The writer lives as long as the context. Throws std::logic_error if the topic table does not
@@ -147,6 +168,15 @@ class ServiceContext {
     std::function<void()> work;
   };
 
+  template <typename Sample>
+  std::shared_ptr<dds::Reader<Sample>> take_prepared(const dds::Topic<Sample>& topic) {
+    const auto found = prepared_.find(std::string(topic.name));
+    if (found == prepared_.end()) return nullptr;
+    auto reader = std::static_pointer_cast<dds::Reader<Sample>>(std::move(found->second));
+    prepared_.erase(found);
+    return reader;
+  }
+
   template <typename Side>
   void keep(const std::shared_ptr<Side>& endpoint) {
     mismatches_.push_back([side = endpoint.get()] { return side->mismatch(); });
@@ -172,6 +202,7 @@ class ServiceContext {
   CommandDesk desk_;
   RateLimit rate_limit_;
   std::vector<std::shared_ptr<void>> endpoints_;
+  std::map<std::string, std::shared_ptr<void>> prepared_;  ///< Readers, by topic.
   std::vector<std::function<std::optional<dds::QosMismatch>()>> mismatches_;
   std::vector<std::function<void()>> hand_over_;
   std::uint32_t mismatches_reported_ = 0;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "common/app/run_service.hpp"
@@ -23,14 +26,24 @@ class DetectionService {
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 
+  static void prepare(app::ServiceContext& context);
+
   DetectionService(app::ServiceContext& context, const Settings& settings);
 
  private:
+  /// Newest scan of a scanner that the leader before segmented while this process stood by.
+  struct DoneScan {
+    flow::OdomId odom_id;
+    std::int64_t stamp_ns = 0;
+  };
+
   void take(const slammot_LocalizedScan& sample);
+  bool was_done_before(const flow::LocalizedScan& scan);
 
   app::ServiceContext& context_;
   Detector detector_;
-  flow::SegmentedScan segmented_scan_;  ///< Its memory is reused for the next scan.
+  std::map<std::string, DoneScan> done_before_;  ///< By scanner, until a newer scan comes.
+  flow::SegmentedScan segmented_scan_;           ///< Its memory is reused for the next scan.
   dds::Writer<slammot_SegmentedScan>& segmented_scans_;
   wire::SegmentedScanEncoder encoder_;
 };

@@ -70,6 +70,13 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
   context.on_command("finish_submap", [this](std::string_view) { return finish_submap(); });
 }
 
+void LocalizationService::prepare(app::ServiceContext& context) {
+  context.prepare(dds::topics::kTrackedObjects, dds::History::kRestart);
+  context.prepare(dds::topics::kScanLabels, dds::History::kRestart);
+  context.prepare(dds::topics::kOdometry, dds::History::kRestart);
+  context.prepare(dds::topics::kLaserScan, dds::History::kRestart);
+}
+
 LocalizationService::~LocalizationService() {
   if (drive_.last_done_ns) checkpoint_.save_last(*drive_.last_done_ns, session(), localizer_);
 }

@@ -42,6 +42,8 @@ class LocalizationService {
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);
 
+  static void prepare(app::ServiceContext& context);
+
   LocalizationService(app::ServiceContext& context, const Settings& settings);
   /// Leaves a checkpoint of the newest scan: a standby has nothing to localize again.
   ~LocalizationService();

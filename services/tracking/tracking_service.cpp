@@ -64,6 +64,10 @@ TrackingService::TrackingService(app::ServiceContext& context, const Settings& s
   context.before_report([this] { context_.status().set_counters(named(tracker_.counters())); });
 }
 
+void TrackingService::prepare(app::ServiceContext& context) {
+  context.prepare(dds::topics::kSegmentedScan, dds::History::kRestart);
+}
+
 /// Of several that were kept the newest counts; once tracking goes on they are echoes of its own.
 void TrackingService::take_stored(const slammot_TrackedObjects& sample) {
   if (!waits_for_stored_tracks_) return;

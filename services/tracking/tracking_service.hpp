@@ -29,6 +29,8 @@ class TrackingService {
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App&, Settings&) {}
 
+  static void prepare(app::ServiceContext& context);
+
   TrackingService(app::ServiceContext& context, const Settings& settings);
   /// Leaves the newest state in the journal.
   ~TrackingService();
