@@ -14,6 +14,7 @@
 #include "common/files/result.hpp"
 #include "common/files/topic_choice.hpp"
 #include "common/matching/log_evidence.hpp"
+#include "common/sensing/odometry_sampling.hpp"
 #include "common/sensing/own_body.hpp"
 #include "common/sensing/scan_times.hpp"
 #include "common/sensing/spatial_mounting.hpp"
@@ -181,33 +182,6 @@ class CarmenSurvey {
     std::uint64_t met_ = 0;
   };
 
-  /// Counts how often consecutive scans have the very same pose of odometry.
-  class HeldPoses {
-   public:
-    void add(const geometry::Pose2& recorded);
-    /// As LogPlan::odometry_held_scans.
-    std::size_t most_scans() const;
-
-   private:
-    std::optional<geometry::Pose2> last_;
-    std::size_t repeats_ = 0;
-    std::vector<double> repeats_before_change_;
-  };
-
-  /// How much the sideways part of odometry's steps changes from one to the next: wheels do not
-  /// jump aside, so that this is noise or rounding.
-  class PoseNoise {
-   public:
-    void add(const geometry::Pose2& recorded);
-    double mean_m() const;  ///< 0 of few steps.
-
-   private:
-    std::optional<geometry::Pose2> last_;
-    std::optional<geometry::Vector2> last_step_m_;
-    double changes_m_ = 0.0;
-    std::size_t steps_ = 0;
-  };
-
   /// Sample of scan pairs with little motion in between, spread over the log, limited in number.
   class PairSample {
    public:
@@ -261,8 +235,8 @@ class CarmenSurvey {
     AgreementCheck agreement;           // by ipc time
     AgreementCheck agreement_by_order;  // by the lines' order in the log
     bool pose_changes = false;
-    HeldPoses held_poses;
-    PoseNoise pose_noise;
+    sensing::HeldPoses held_poses;
+    sensing::PoseNoise pose_noise;
     std::uint64_t readings = 0;
     std::uint64_t scans_without_readings = 0;
     std::vector<std::uint32_t> readings_by_unit;  // as written, whatever the unit
@@ -295,7 +269,7 @@ class CarmenSurvey {
     geometry::Pose2 last_pose;
     bool pose_changes = false;
     matching::OdometryCheck check;
-    PoseNoise noise;
+    sensing::PoseNoise noise;
   };
 
   Lasers& lasers_of(const LaserRecord& record);

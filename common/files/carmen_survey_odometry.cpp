@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "common/files/carmen_survey.hpp"
+#include "common/files/pose_difference.hpp"
+
+namespace slammot::files {
+
+void CarmenSurvey::AgreementCheck::add_odom(const StampedPose& odom) {
+  constexpr double kMetM = 0.10;
+  constexpr double kMetRad = 0.10;
+  for (const StampedPose& laser : waiting_) {
+    if (!before_ || laser.stamp_ns < before_->stamp_ns || laser.stamp_ns > odom.stamp_ns) continue;
+    const double span_ns = static_cast<double>(odom.stamp_ns - before_->stamp_ns);
+    const double fraction =
+        span_ns > 0.0 ? static_cast<double>(laser.stamp_ns - before_->stamp_ns) / span_ns : 0.0;
+    ++compared_;
+    // Interpolation can be wrong by the motion between the two ODOM lines.
+    const double slack_m = kMetM + 0.5 * distance_m(before_->wheel_from_base, odom.wheel_from_base);
+    const double slack_rad =
+        kMetRad + 0.5 * std::abs(geometry::wrap_angle(odom.wheel_from_base.heading_rad -
+                                                      before_->wheel_from_base.heading_rad));
+    if (!differ(geometry::interpolate(before_->wheel_from_base, odom.wheel_from_base, fraction),
+                laser.wheel_from_base, slack_m, slack_rad))
+      ++met_;
+  }
+  waiting_.clear();
+  before_ = odom;
+}
+
+void CarmenSurvey::AgreementCheck::add_laser(const StampedPose& laser) {
+  constexpr std::size_t kMaxWaiting = 64;
+  if (waiting_.size() < kMaxWaiting) waiting_.push_back(laser);
+}
+
+bool CarmenSurvey::AgreementCheck::agrees() const {
+  constexpr double kMetShare = 0.95;
+  return compared_ > 0 && static_cast<double>(met_) >= kMetShare * static_cast<double>(compared_);
+}
+
+/// By the poses of the scans, if both have the same clock.
+double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const {
+  const bool has_clock =
+      plan.clock != LogClock::kNominal && plan.times.stamps_ns.empty() && !plan.first_scan_is_ahead;
+  const bool is_in_scans =
+      plan.odometry == OdometrySource::kLaserRecords || plan.odometry == OdometrySource::kBoth;
+  if (!has_clock || !is_in_scans) return 0.0;
+  const std::vector<std::optional<std::int64_t>>& stamps_ns =
+      plan.clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns;
+  if (!std::ranges::all_of(stamps_ns, [](const auto& stamp_ns) { return stamp_ns.has_value(); }))
+    return 0.0;
+  std::vector<matching::TimedPose> odometry;
+  for (std::size_t i = 0; i < lasers.poses.size(); ++i) {
+    const bool is_held = plan.odometry_held_scans > 0 && i > 0 &&
+                         lasers.poses[i].wheel_from_base == lasers.poses[i - 1].wheel_from_base;
+    if (is_held) continue;
+    odometry.push_back({static_cast<double>(*stamps_ns[i] - *stamps_ns.front()) * 1e-9,
+                        corrected(plan.evidence.correction, lasers.poses[i].wheel_from_base)});
+  }
+  return matching::odometry_lateness_s(plan.evidence.motions, odometry,
+                                       {plan.evidence.way_scale, plan.evidence.turn_scale});
+}
+
+/// Noisy odometry looks like slip, and between samples that come seldom a car brakes and turns.
+/// What smoothing and interpolation leave of that is correlated from scan to scan, and worse than
+/// no odometry where scans come so often that they suffice.
+void CarmenSurvey::treat_poor_odometry(const Lasers& lasers, LogPlan& plan) const {
+  constexpr double kFrequentScans_s = 0.04;
+  constexpr double kLongestPeriod_s = 0.1;
+  constexpr double kWindow_s = 0.5;
+  constexpr double kNoise_m = 1.5e-3;  // wheels are below 0.3 mm
+  constexpr double kMuchNoise_m = 8e-3;
+  constexpr double kRare_s = 0.5;  // twice what nine of ten samples come after
+  const matching::LogCorrection& correction = plan.evidence.correction;
+  const bool is_in_units = correction.way_unit_m == 1.0 && correction.heading_unit_rad == 1.0 &&
+                           !correction.mirrors_position && !correction.mirrors_heading;
+  if (!plan.figures.has_clock || !is_in_units || plan.odometry == OdometrySource::kNone) return;
+  const OdometryLines& lines = chosen_odometry_lines();
+  const bool is_in_lines = plan.odometry == OdometrySource::kOdomLines;
+  const double scan_period_s = plan.figures.scan_period_s;
+  const double period_s =
+      is_in_lines ? plan.figures.duration_s / static_cast<double>(lines.count) : scan_period_s;
+  const double noise_m = (is_in_lines ? lines.noise : lasers.pose_noise).mean_m();
+  const double held_s = static_cast<double>(plan.odometry_held_scans) * scan_period_s;
+  const bool is_held = plan.odometry_held_scans > 0 && !is_in_lines;
+  const bool is_noisy =
+      !is_held && period_s > 0.0 && period_s <= kLongestPeriod_s && noise_m > kNoise_m;
+  const bool scans_suffice = scan_period_s <= kFrequentScans_s;
+  plan.odometry_is_too_noisy = scans_suffice && is_noisy && noise_m > kMuchNoise_m;
+  plan.odometry_is_too_rare = scans_suffice && is_held && held_s > kRare_s;
+  if (plan.odometry_is_too_noisy || plan.odometry_is_too_rare) {
+    plan.odometry = OdometrySource::kNone;
+    plan.odometry_late_s = 0.0;
+    plan.odometry_held_scans = 0;
+  } else if (is_noisy) {
+    plan.odometry_smoothed_over = static_cast<std::size_t>(std::ceil(0.5 * kWindow_s / period_s));
+    if (plan.odometry == OdometrySource::kBoth) plan.odometry = OdometrySource::kLaserRecords;
+  }
+}
+
+OdometrySource CarmenSurvey::odometry_source(const Lasers& lasers, const LogPlan& plan) const {
+  const bool lines_change = chosen_odometry_lines().pose_changes;
+  if (!lasers.pose_changes)
+    return lines_change ? OdometrySource::kOdomLines : OdometrySource::kNone;
+  if (lines_change && plan.odometry_held_scans > 0) return OdometrySource::kOdomLines;
+  const bool is_replaced = !plan.times.stamps_ns.empty();
+  const bool agrees = is_replaced ? lasers.agreement_by_order.agrees()
+                                  : plan.clock == LogClock::kIpc && lasers.agreement.agrees();
+  return lines_change && agrees ? OdometrySource::kBoth : OdometrySource::kLaserRecords;
+}
+
+}  // namespace slammot::files
