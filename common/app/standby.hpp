@@ -13,7 +13,8 @@ namespace slammot::app {
 inline constexpr int kExitInUse = 4;
 
 /// Lets one process of a service and vehicle work and the others wait until it ends. The others
-/// hold nothing but the bus, and start as after a crash of the leader: from the state that it left.
+/// hold nothing but what the bus gives (ServiceContext::prepare), and start as after a crash of the
+/// leader: from the state that it left.
 /// A leader on this machine that holds the state and is silent hangs: the standby kills it, so that
 /// the state never has two owners.
 class Standby {
