@@ -62,6 +62,18 @@ std::vector<std::string> names_of(const std::vector<ScannerPlan>& scanners) {
   return names;
 }
 
+/// The user says that the laser is so much farther ahead and to the left: what the pairs of scans
+/// found of odometry's point may be just that.
+void take_as_stated(const geometry::Vector2& laser_moved_m, matching::LogCorrection& correction) {
+  constexpr double kSame_m = 0.2;
+  geometry::Pose2& odometry_from_base = correction.odometry_from_base;
+  if (odometry_from_base == geometry::Pose2::identity()) return;
+  odometry_from_base.x_m -= laser_moved_m.x();
+  odometry_from_base.y_m -= laser_moved_m.y();
+  if (odometry_from_base.translation_m().norm() < kSame_m)
+    odometry_from_base = geometry::Pose2::identity();
+}
+
 /// A wish for a scanner that does not scan the plane, or that the log does not have.
 std::optional<Error> find_fault(const ScannerWish& wish, const CarmenSurvey& survey) {
   const std::vector<ScannerPlan> vertical = survey.profile_scanners(wish);
@@ -167,8 +179,11 @@ void CarmenLog::set_options(const CarmenLogOptions& options) {
   if (options.fallback_base_from_laser == geometry::Pose2::identity() ||
       difference(plan_.base_from_laser, unsaid).norm() > 1e-9)
     return;
+  const geometry::Vector2 stated_m =
+      options.fallback_base_from_laser.translation_m() - plan_.base_from_laser.translation_m();
   plan_.base_from_laser = options.fallback_base_from_laser;
   plan_.evidence.correction.laser_turn_rad = 0.0;
+  take_as_stated(stated_m, plan_.evidence.correction);
 }
 
 std::optional<LogEvent> CarmenLog::next() {

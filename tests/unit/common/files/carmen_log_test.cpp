@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/files/line_reader.hpp"
 #include "tests/support/matchers.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/common/files/log_text.hpp"
@@ -166,6 +168,28 @@ TEST_F(CarmenLogTest, LeavesOutOdomLinesThatContradictTheLaserRecords) {
       read(FlaserLine{.pose = "0.1 0 0", .ipc = "1.0"}.text() + "ODOM 7 0 0 0 0 0 1.05 h 1\n" +
            FlaserLine{.pose = "0.2 0 0", .ipc = "1.1"}.text() + "ODOM 8 0 0 0 0 0 1.15 h 1\n");
   EXPECT_EQ(reading.order, "osos");
+}
+
+TEST_F(CarmenLogTest, TakesOdometryFromWhereItIsUnlessTheUserSaysThatTheLaserIsThere) {
+  write_file(file_, straight_drive(3));
+  LogPlan plan;
+  plan.odometry = OdometrySource::kLaserRecords;
+  plan.max_range_m = 80.0;
+  plan.evidence.correction.odometry_from_base = {2.0, 0.1, 0.0};
+  const auto first = [&](const Pose2& fallback_base_from_laser) {
+    auto lines = LineReader::open(file_);
+    CarmenLogOptions options;
+    options.fallback_base_from_laser = fallback_base_from_laser;
+    CarmenLog log =
+        CarmenLog::follow(std::make_unique<LineReader>(std::move(*lines)), plan, options);
+    const auto odometry = std::get<Odometry>(*log.next());
+    const auto scan = std::get<LaserScan>(*log.next());
+    EXPECT_EQ(scan.scanner.base_from_laser, fallback_base_from_laser);
+    return odometry.wheel_from_base;
+  };
+  EXPECT_THAT(first(Pose2::identity()), PoseNear(Pose2{2.0, 0.1, 0.0}, 1e-9));
+  EXPECT_THAT(first({2.0, 0.0, 0.0}), PoseNear(Pose2{0.0, 0.0, 0.0}, 1e-9));
+  EXPECT_THAT(first({0.5, 0.0, 0.0}), PoseNear(Pose2{1.5, 0.1, 0.0}, 1e-9));
 }
 
 TEST_F(CarmenLogTest, SmoothsNoisyPoses) {
