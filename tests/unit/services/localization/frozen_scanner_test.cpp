@@ -24,10 +24,10 @@ class FrozenScannerTest : public ::testing::Test {
 TEST_F(FrozenScannerTest, RepeatsItsReadingsWhileTheVehicleMoves) {
   const sensing::LaserScan scan = scan_at(Pose2::identity());
   EXPECT_FALSE(frozen_.repeats(scan, Pose2{}));
-  EXPECT_FALSE(frozen_.repeats(scan, Pose2(0.02, 0.0, 0.0))) << "one that creeps";
-  EXPECT_TRUE(frozen_.repeats(scan, Pose2(0.04, 0.0, 0.0))) << "since the readings came first";
-  EXPECT_TRUE(frozen_.repeats(scan, Pose2(0.0, 0.0, 0.04)));
-  EXPECT_FALSE(frozen_.repeats(scan_at({1.0, 0.0, 0.0}), Pose2(1.0, 0.0, 0.0)));
+  EXPECT_FALSE(frozen_.repeats(scan, Pose2{0.02, 0.0, 0.0})) << "one that creeps";
+  EXPECT_TRUE(frozen_.repeats(scan, Pose2{0.04, 0.0, 0.0})) << "since the readings came first";
+  EXPECT_TRUE(frozen_.repeats(scan, Pose2{0.0, 0.0, 0.04}));
+  EXPECT_FALSE(frozen_.repeats(scan_at({1.0, 0.0, 0.0}), Pose2{1.0, 0.0, 0.0}));
 }
 
 TEST_F(FrozenScannerTest, DoesNotWhereNothingTellsThatTheVehicleMoves) {
@@ -42,7 +42,7 @@ TEST_F(FrozenScannerTest, DoesNotInTheOpenWhereNoBeamHasAnEcho) {
   sensing::LaserScan scan = scan_at(Pose2::identity());
   std::ranges::fill(scan.range_m, static_cast<float>(scan.scanner.max_range_m));
   EXPECT_FALSE(frozen_.repeats(scan, Pose2{}));
-  EXPECT_FALSE(frozen_.repeats(scan, Pose2(5.0, 0.0, 0.0)));
+  EXPECT_FALSE(frozen_.repeats(scan, Pose2{5.0, 0.0, 0.0}));
 }
 
 TEST_F(FrozenScannerTest, IsJudgedByItsOwnReadings) {
@@ -51,9 +51,9 @@ TEST_F(FrozenScannerTest, IsJudgedByItsOwnReadings) {
   rear.scanner.scanner_id = "rear";
   EXPECT_FALSE(frozen_.repeats(front, Pose2{}));
   EXPECT_FALSE(frozen_.repeats(rear, Pose2{}));
-  EXPECT_TRUE(frozen_.repeats(front, Pose2(1.0, 0.0, 0.0)));
-  EXPECT_FALSE(frozen_.repeats(scan_at({1.0, 0.0, 0.0}), Pose2(1.0, 0.0, 0.0)));
-  EXPECT_TRUE(frozen_.repeats(rear, Pose2(1.0, 0.0, 0.0)));
+  EXPECT_TRUE(frozen_.repeats(front, Pose2{1.0, 0.0, 0.0}));
+  EXPECT_FALSE(frozen_.repeats(scan_at({1.0, 0.0, 0.0}), Pose2{1.0, 0.0, 0.0}));
+  EXPECT_TRUE(frozen_.repeats(rear, Pose2{1.0, 0.0, 0.0}));
 }
 
 TEST_F(FrozenScannerTest, LeavesReadingsThatTellNothing) {
