@@ -526,7 +526,9 @@ void place_odometry(const std::optional<OdometryPoint>& point, const AssumedBeam
   constexpr double kTurned_rad = 0.02;
   constexpr double kApart_m = 0.2;
   constexpr double kSigmas = 4.0;
-  if (!point) return;
+  constexpr double kMostSigma_rad = 0.02;  // more, and pairs were matched wrongly
+  constexpr double kMostSigma_m = 0.3;
+  if (!point || point->sigma.heading_rad > kMostSigma_rad) return;
   const Pose2& found = point->odometry_from_laser;
   const double turned_rad = wrap_angle(found.heading_rad - beams.laser_heading_rad);
   if (correction.laser_turn_rad == 0.0 && std::abs(turned_rad) < kTurnedSeen_rad &&
@@ -534,7 +536,7 @@ void place_odometry(const std::optional<OdometryPoint>& point, const AssumedBeam
     correction.laser_turn_rad = turned_rad;
   const geometry::Vector2 apart_m = found.translation_m() - beams.laser_in_base_m;
   const double sigma_m = std::hypot(point->sigma.x_m, point->sigma.y_m);
-  if (apart_m.norm() > std::max(kApart_m, kSigmas * sigma_m))
+  if (sigma_m < kMostSigma_m && apart_m.norm() > std::max(kApart_m, kSigmas * sigma_m))
     correction.odometry_from_base = {apart_m.x(), apart_m.y(), 0.0};
 }
 

@@ -4,6 +4,13 @@
 
 namespace slammot::localization {
 
+ScanPublisher::ScanPublisher(app::ServiceContext& context)
+    : context_(context), scans_(context.write(dds::topics::kLocalizedScan)) {
+  context.after(app::RepeatWatch::kBegins, [this] {
+    for (const std::string& scanner_id : repeats_.take_owed()) publish_newest(scanner_id);
+  });
+}
+
 void ScanPublisher::publish(flow::LocalizedScan scan, std::int64_t scan_published_ns) {
   scans_.write(encoder_.encode(context_.vehicle_id(), scan, scan_published_ns));
   const std::string scanner_id = scan.scanner_id;
@@ -12,10 +19,14 @@ void ScanPublisher::publish(flow::LocalizedScan scan, std::int64_t scan_publishe
 
 void ScanPublisher::answer_again(const std::string& scanner_id, std::int64_t stamp_ns) {
   const auto newest = newest_.find(scanner_id);
-  if (newest == newest_.end() ||
-      !repeats_.asks_for_answer(scanner_id, stamp_ns, newest->second.stamp_ns))
-    return;
-  scans_.write(encoder_.encode(context_.vehicle_id(), newest->second));
+  if (newest != newest_.end() &&
+      repeats_.asks_for_answer(scanner_id, stamp_ns, newest->second.stamp_ns))
+    publish_newest(scanner_id);
+}
+
+void ScanPublisher::publish_newest(const std::string& scanner_id) {
+  const auto newest = newest_.find(scanner_id);
+  if (newest != newest_.end()) scans_.write(encoder_.encode(context_.vehicle_id(), newest->second));
 }
 
 void ScanPublisher::take_up(const std::vector<flow::LocalizedScan>& newest) {

@@ -13,8 +13,9 @@ namespace slammot::localization {
 /// Publishes localized scans, and keeps the newest one of each scanner.
 class ScanPublisher {
  public:
-  explicit ScanPublisher(app::ServiceContext& context)
-      : context_(context), scans_(context.write(dds::topics::kLocalizedScan)) {}
+  explicit ScanPublisher(app::ServiceContext& context);
+  ScanPublisher(const ScanPublisher&) = delete;
+  ScanPublisher& operator=(const ScanPublisher&) = delete;
 
   /// scan_published_ns: by the system clock of the source of the scan.
   void publish(flow::LocalizedScan scan, std::int64_t scan_published_ns);
@@ -33,6 +34,8 @@ class ScanPublisher {
   void clear() { newest_.clear(); }
 
  private:
+  void publish_newest(const std::string& scanner_id);
+
   app::ServiceContext& context_;
   dds::Writer<slammot_LocalizedScan>& scans_;
   wire::LocalizedScanEncoder encoder_;

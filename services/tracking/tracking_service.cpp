@@ -61,6 +61,7 @@ TrackingService::TrackingService(app::ServiceContext& context, const Settings& s
       [this](const auto& sample) { take(sample); }, dds::History::kRestart);
   context.status().set_starting(waits_for_stored_tracks_);  // a source of scans waits for it
   context.after(kStoredTracksPatience, [this] { begin(); });
+  context.after(app::RepeatWatch::kBegins, [this] { answer_what_is_owed(); });
   context.before_report([this] { context_.status().set_counters(named(tracker_.counters())); });
 }
 
@@ -174,6 +175,14 @@ void TrackingService::answer_again(const ScanOnTheBus& repeated, const TrackingR
   ++context_.status().counter("repeated_scans");
   if (repeats_.asks_for_answer(scan.scanner_id, scan.stamp_ns, last.labels.stamp_ns))
     publish(last, published_ns);
+}
+
+void TrackingService::answer_what_is_owed() {
+  for (const std::string& scanner_id : repeats_.take_owed()) {
+    if (!session_) return;
+    const auto last = session_->last_results.find(scanner_id);
+    if (last != session_->last_results.end()) publish(last->second, 0);
+  }
 }
 
 /// After the answer to the scan, so that nobody waits for it.

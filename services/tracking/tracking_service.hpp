@@ -59,6 +59,7 @@ class TrackingService {
   void prove_journal(const flow::SegmentedScan& first);
   bool follows_journal(const flow::SegmentedScan& first) const;
   void answer_again(const ScanOnTheBus& repeated, const TrackingResult& last);
+  void answer_what_is_owed();
   void track(const ScanOnTheBus& on_the_bus);
   void save(std::int64_t stamp_ns);
   void save_if_due(std::int64_t stamp_ns);

@@ -39,6 +39,8 @@ TEST(RepeatWatch, AnswersNothingButTheNewestOfWhatTheBusGivesAProcessThatBegins)
   RepeatWatch watch(begun);
   EXPECT_FALSE(watch.asks_for_answer("front", 50 * kMs, kNewestNs, begun));
   EXPECT_TRUE(watch.asks_for_answer("front", kNewestNs, kNewestNs, begun));
+  EXPECT_EQ(watch.take_owed(), std::set<std::string>{"front"}) << "somebody may have repeated it";
+  EXPECT_TRUE(watch.take_owed().empty());
   EXPECT_TRUE(watch.asks_for_answer("front", 50 * kMs, kNewestNs, begun + RepeatWatch::kBegins));
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -195,6 +196,16 @@ TEST(WeighLog, DoesNotTakeNoiseOfOdometryForTurnsOfAnotherSize) {
 TEST(WeighLog, FindsAScannerThatIsTurnedALittle) {
   EXPECT_NEAR(evidence_of({.looks_rad = 0.1}).correction.laser_turn_rad, 0.1, 0.02);
   EXPECT_EQ(evidence_of({.looks_rad = 0.005}).correction.laser_turn_rad, 0.0);
+}
+
+TEST(WeighLog, FindsNoPointOfOdometryAmongMatchesThatScatter) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> error_m(0.0, 0.4);
+  const LogEvidence evidence = evidence_of({.pose = [&](const Pose2& pose) {
+    return pose * Pose2{error_m(random), error_m(random), 0.0};
+  }});
+  EXPECT_EQ(evidence.correction.odometry_from_base, Pose2::identity());
+  EXPECT_EQ(evidence.correction.laser_turn_rad, 0.0);
 }
 
 TEST(WeighLog, FindsThePointThatOdometrySpeaksOf) {
