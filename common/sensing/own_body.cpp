@@ -79,16 +79,14 @@ void OwnBodySurvey::add(std::span<const float> readings) {
 OwnBody OwnBodySurvey::conclude(double unit_m) const {
   if (views_.size() < kFewestViews) return {};
   const std::size_t beams = last_view_.size();
-  std::vector<Usual> usual(beams);
   std::vector<float> readings;
   OwnBody body{std::vector<float>(beams, 0.0F)};
   for (std::size_t beam = 0; beam < beams; ++beam) {
     readings.clear();
     for (const std::vector<float>& view : views_)
       if (is_reading(view[beam])) readings.push_back(view[beam]);
-    usual[beam] = usual_of(readings, views_.size(), unit_m);
-    const double reading = usual[beam].reading;
-    if (usual[beam].share < kConstantShare || reading * unit_m > kFarthestPart_m) continue;
+    const auto [reading, share] = usual_of(readings, views_.size(), unit_m);
+    if (share < kConstantShare || reading * unit_m > kFarthestPart_m) continue;
     body.reach[beam] = static_cast<float>(reading + tolerance_of(reading, unit_m));
   }
   if (body.beams() == 0) return {};
