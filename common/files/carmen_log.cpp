@@ -272,7 +272,7 @@ void CarmenLog::take(LaserRecord record) {
   const auto stamp = scan_stamp_ns(record.stamps, *scanner);
   if (!stamp) return note_malformed();
   if (*scanner == 0) odom_lines_since_scan_ = 0;
-  if (!has_several_scanners() || has_replaced_stamps())
+  if (!has_several_scanners() || is_timed_by_order())
     return take_in_order(std::move(record), *scanner, *stamp);
   merging_.emplace(*stamp, MergingScan{std::move(record), *scanner});
   merge_scans(kMaxMergingScans);
@@ -325,8 +325,8 @@ void CarmenLog::take(const OdometryRecord& record) {
       record.kind != plan_.odometry_lines)
     return;
   const auto stamp =
-      has_replaced_stamps() ? odometry_stamp_by_order_ns() : recorded_stamp_ns(record.stamps);
-  if (!stamp) return has_replaced_stamps() ? void() : note_malformed();
+      is_timed_by_order() ? odometry_stamp_by_order_ns() : recorded_stamp_ns(record.stamps);
+  if (!stamp) return is_timed_by_order() ? void() : note_malformed();
   if (!odometry_stamps_.believes(*stamp) ||
       !smooth_and_keep({*stamp - lateness_ns(), pose_correction_.next(plan_.evidence.correction,
                                                                       record.wheel_from_base)})) {
@@ -339,7 +339,7 @@ void CarmenLog::take(const OdometryRecord& record) {
 
 void CarmenLog::take(const GnssRecord& record) {
   const auto stamp = recorded_stamp_ns(record.stamps);
-  if (has_replaced_stamps()) return void(++faults_.ignored_lines);
+  if (is_timed_by_order()) return void(++faults_.ignored_lines);
   if (!stamp) return note_malformed();
   sensing::GnssFix fix = record.fix;
   fix.stamp_ns = *stamp;
@@ -348,7 +348,7 @@ void CarmenLog::take(const GnssRecord& record) {
 
 void CarmenLog::take(const CompassRecord& record) {
   const auto stamp = recorded_stamp_ns(record.stamps);
-  if (has_replaced_stamps()) return void(++faults_.ignored_lines);
+  if (is_timed_by_order()) return void(++faults_.ignored_lines);
   if (!stamp) return note_malformed();
   sensing::CompassReading reading = record.reading;
   reading.stamp_ns = *stamp;
@@ -357,7 +357,7 @@ void CarmenLog::take(const CompassRecord& record) {
 
 void CarmenLog::take(const ImuRecord& record) {
   const auto stamp = recorded_stamp_ns(record.stamps);
-  if (has_replaced_stamps()) return void(++faults_.ignored_lines);
+  if (is_timed_by_order()) return void(++faults_.ignored_lines);
   if (!stamp) return note_malformed();
   if (gyro_stamps_.believes(*stamp)) gyro_.add({*stamp, record.yaw_rate_radps});
 }
@@ -430,8 +430,9 @@ std::optional<std::int64_t> CarmenLog::recorded_stamp_ns(const CarmenStamps& sta
 /// neighbouring ones of the main scanner.
 std::optional<std::int64_t> CarmenLog::scan_stamp_ns(const CarmenStamps& stamps,
                                                      std::size_t scanner) const {
-  if (!has_replaced_stamps()) return recorded_stamp_ns(stamps);
   const std::vector<std::int64_t>& replaced_ns = plan_.times.stamps_ns;
+  const bool is_replaced = !replaced_ns.empty() && (scanner == 0 || is_timed_by_order());
+  if (!is_replaced) return recorded_stamp_ns(stamps);
   const std::size_t next = scans_[0];
   if (scanner == 0)
     return next < replaced_ns.size() ? std::optional(replaced_ns[next]) : std::nullopt;

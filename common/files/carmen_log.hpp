@@ -138,7 +138,7 @@ class CarmenLog {
   void take(const ImuRecord& record);
   void note_malformed();
   void finish_reading();
-  bool has_replaced_stamps() const { return !plan_.times.stamps_ns.empty(); }
+  bool is_timed_by_order() const { return plan_.is_timed_by_order(); }
   std::optional<std::int64_t> recorded_stamp_ns(const CarmenStamps& stamps) const;
   std::optional<std::int64_t> scan_stamp_ns(const CarmenStamps& stamps, std::size_t scanner) const;
   std::optional<std::int64_t> odometry_stamp_by_order_ns();

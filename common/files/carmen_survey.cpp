@@ -425,7 +425,7 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
   plan.odometry_held_scans = lasers.held_poses.most_scans();
   plan.odometry = odometry_source(lasers, plan);
   plan.odometry_late_s = odometry_lateness_s(lasers, plan);
-  if (!plan.times.stamps_ns.empty())
+  if (plan.is_timed_by_order())
     plan.odom_lines_before_scan =
         lasers.lines_between[static_cast<std::size_t>(plan.odometry_lines)].before_scan;
   plan.figures = figures(lasers, plan, fallback_field_of_view_rad);
@@ -553,7 +553,9 @@ void CarmenSurvey::choose_clock(const Lasers& lasers, LogPlan& plan) const {
   const std::array<const ClockCheck*, 2> checks{&lasers.ipc_clock, &lasers.logger_clock};
   for (std::size_t i = 0; i < clocks.size(); ++i) {
     const bool begins_ahead = checks[i]->is_usable() && checks[i]->begins_ahead();
-    if (!begins_ahead && times[i].fault != sensing::ClockFault::kNone) continue;
+    const bool is_sound = times[i].fault == sensing::ClockFault::kNone ||
+                          times[i].fault == sensing::ClockFault::kNoisy;
+    if (!begins_ahead && !is_sound) continue;
     take(i);
     if (begins_ahead) plan.times = {};
     plan.first_scan_is_ahead = begins_ahead;

@@ -124,6 +124,12 @@ struct LogPlan {
   bool first_scan_is_ahead = false;  ///< The next two scans have consistent stamps far before the
                                      ///< first one's.
   LogFigures figures;
+
+  /// True if scans have other stamps than recorded, which have nothing to do with those of other
+  /// records: these count by their order. Stamps without noise are of the same clock.
+  bool is_timed_by_order() const {
+    return !times.stamps_ns.empty() && times.fault != sensing::ClockFault::kNoisy;
+  }
 };
 
 inline constexpr double kNominalRateHz = 10.0;

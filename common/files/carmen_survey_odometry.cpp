@@ -43,7 +43,7 @@ bool CarmenSurvey::AgreementCheck::agrees() const {
 /// By the poses of the scans, if both have the same clock.
 double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const {
   const bool has_clock =
-      plan.clock != LogClock::kNominal && plan.times.stamps_ns.empty() && !plan.first_scan_is_ahead;
+      plan.clock != LogClock::kNominal && !plan.is_timed_by_order() && !plan.first_scan_is_ahead;
   const bool is_in_scans =
       plan.odometry == OdometrySource::kLaserRecords || plan.odometry == OdometrySource::kBoth;
   if (!has_clock || !is_in_scans) return 0.0;
@@ -51,12 +51,15 @@ double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& pl
       plan.clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns;
   if (!std::ranges::all_of(stamps_ns, [](const auto& stamp_ns) { return stamp_ns.has_value(); }))
     return 0.0;
+  const auto stamp_ns = [&](std::size_t i) {
+    return plan.times.stamps_ns.empty() ? *stamps_ns[i] : plan.times.stamps_ns[i];
+  };
   std::vector<matching::TimedPose> odometry;
   for (std::size_t i = 0; i < lasers.poses.size(); ++i) {
     const bool is_held = plan.odometry_held_scans > 0 && i > 0 &&
                          lasers.poses[i].wheel_from_base == lasers.poses[i - 1].wheel_from_base;
     if (is_held) continue;
-    odometry.push_back({static_cast<double>(*stamps_ns[i] - *stamps_ns.front()) * 1e-9,
+    odometry.push_back({static_cast<double>(stamp_ns(i) - stamp_ns(0)) * 1e-9,
                         corrected(plan.evidence.correction, lasers.poses[i].wheel_from_base)});
   }
   return matching::odometry_lateness_s(plan.evidence.motions, odometry,
@@ -105,10 +108,13 @@ OdometrySource CarmenSurvey::odometry_source(const Lasers& lasers, const LogPlan
   if (!lasers.pose_changes)
     return lines_change ? OdometrySource::kOdomLines : OdometrySource::kNone;
   if (lines_change && plan.odometry_held_scans > 0) return OdometrySource::kOdomLines;
-  const bool is_replaced = !plan.times.stamps_ns.empty();
-  const bool agrees = is_replaced ? lasers.agreement_by_order.agrees()
-                                  : plan.clock == LogClock::kIpc && lasers.agreement.agrees();
-  return lines_change && agrees ? OdometrySource::kBoth : OdometrySource::kLaserRecords;
+  const bool agrees = plan.is_timed_by_order()
+                          ? lasers.agreement_by_order.agrees()
+                          : plan.clock == LogClock::kIpc && lasers.agreement.agrees();
+  if (!lines_change || !agrees) return OdometrySource::kLaserRecords;
+  // Poses that were interpolated at noisy stamps have their noise; those of the lines do not.
+  return plan.times.fault == sensing::ClockFault::kNoisy ? OdometrySource::kOdomLines
+                                                         : OdometrySource::kBoth;
 }
 
 }  // namespace slammot::files

@@ -33,6 +33,9 @@ std::string describe_clock(const LogPlan& plan) {
     case ClockFault::kCoarse:
       return text("stamps are rounded to %g s: scans are spread evenly within",
                   plan.times.quantum_s);
+    case ClockFault::kNoisy:
+      return text("stamps of scans are noisy by %.1f ms: taken from the scanner's steady rate",
+                  1e3 * plan.times.noise_s);
     case ClockFault::kBackwards: return "stamps run backwards: mirrored";
     case ClockFault::kJumps:
       return text("stamps jump %llu times: bridged by the usual time between scans",
@@ -287,6 +290,7 @@ const char* name_of(ClockFault fault) {
     case ClockFault::kIndex: return "index";
     case ClockFault::kUnit: return "unit";
     case ClockFault::kCoarse: return "coarse";
+    case ClockFault::kNoisy: return "noisy";
     case ClockFault::kBackwards: return "backwards";
     case ClockFault::kJumps: return "jumps";
     case ClockFault::kErratic: return "erratic";

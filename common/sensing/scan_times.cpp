@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/sensing/steady_stamps.hpp"
+
 namespace slammot::sensing {
 namespace {
 
@@ -374,6 +376,14 @@ void spread_if_coarse(std::span<const ScanMark> scans, Repair& repair) {
   repair.note(ClockFault::kCoarse);
 }
 
+void remove_noise(Repair& repair) {
+  std::optional<SteadyStamps> steady = steady_stamps(repair.stamps);
+  if (!steady) return;
+  repair.stamps = std::move(steady->stamps_ns);
+  repair.times.noise_s = steady->noise_s;
+  repair.note(ClockFault::kNoisy);
+}
+
 bool jumps_all_the_time(const Repair& repair) {
   return static_cast<double>(repair.times.jumps) >
          0.02 * static_cast<double>(repair.stamps.size()) + 1.0;
@@ -408,6 +418,7 @@ ScanTimes judge_scan_stamps(std::span<const ScanMark> scans) {
     if (jumps_all_the_time(repair) || repair.stamps.back() <= repair.stamps.front())
       return without_clock(ClockFault::kErratic);
     spread_if_coarse(scans, repair);
+    if (repair.times.fault != ClockFault::kCoarse) remove_noise(repair);
   }
   return advances_mostly(repair.stamps) ? repair.times : without_clock(ClockFault::kErratic);
 }

@@ -15,6 +15,7 @@ enum class ClockFault : std::uint8_t {
   kIndex,      ///< Scan counters.
   kUnit,       ///< They are in milliseconds, microseconds or nanoseconds.
   kCoarse,     ///< Rounded to more than the scan period.
+  kNoisy,      ///< Of a steady scanner, by a computer that was busy.
   kBackwards,  ///< They decrease.
   kJumps,      ///< The clock jumps and continues from there.
   kErratic,    ///< Too few steps advance, for another reason.
@@ -43,13 +44,15 @@ struct ScanTimes {
   std::vector<std::int64_t> stamps_ns;  ///< One a scan; empty: use the recorded ones.
   double unit_s = 1.0;                  ///< kUnit: unit of the recorded numbers.
   double quantum_s = 0.0;               ///< kCoarse: rounding interval.
+  double noise_s = 0.0;                 ///< kNoisy: one sigma.
   std::uint64_t jumps = 0;  ///< kJumps: number of jumps, each replaced by the usual period.
 };
 
 /// Classifies the recorded stamps and repairs them if they contain time. Other units are converted;
 /// a decreasing clock is mirrored; coarse stamps are spread within their quantum as evenly as the
-/// way or the number of scans allows; lasting jumps are removed. Duplicates and single late or
-/// early stamps are kept. If the stamps contain no time, is_clock is false and stamps_ns is empty.
+/// way or the number of scans allows; lasting jumps and the noise of steady_stamps() are removed.
+/// Duplicates and single late or early stamps are kept. If the stamps contain no time, is_clock is
+/// false and stamps_ns is empty.
 ScanTimes judge_scan_stamps(std::span<const ScanMark> scans);
 
 /// True if scans were taken at a constant rate: some ways are far shorter than others, as when a

@@ -134,6 +134,14 @@ class Stamps(AlteredDrive):
         self.assert_odometry_kept(FLASER, altered)
         self.assert_scans_kept(FLASER, altered)
 
+    def test_of_scans_may_be_noisy_but_never_run_backwards(self):
+        altered = alter.scan_stamps_noisy(FLASER, 0.3, 1)
+        errors_s = [noisy - true for noisy, true in zip(stamps(altered), stamps(FLASER))]
+        self.assertTrue(0.15 < (sum(error_s**2 for error_s in errors_s) / len(errors_s))**0.5 < 0.6, errors_s)
+        self.assertEqual(sorted(stamps(altered)), stamps(altered))
+        self.assertEqual([stamp_of(r) for r in FLASER.records if isinstance(r, Odom)], [stamp_of(r) for r in altered.records if isinstance(r, Odom)])
+        self.assert_odometry_kept(FLASER, altered)
+
     def test_index_counts_scans(self):
         altered = alter.stamps_index(FLASER)
         self.assertEqual(list(range(SCANS)), stamps(altered))
@@ -266,6 +274,18 @@ class Beams(AlteredDrive):
         altered = alter.own_body(carmen_drive.Drive(tuple(carmen_drive.parse(flaser_log(beams=100))), carmen_drive.NO_ECHO_M), 1)
         near = [sum(number(word) < 0.5 for word in scan.ranges) for scan in altered.scans()]
         self.assertEqual([19] * SCANS, near)
+
+    def test_ahead_are_hidden_for_a_scanner_that_is_blind_there(self):
+        drive = carmen_drive.Drive(tuple(carmen_drive.parse(flaser_log(beams=100))), carmen_drive.NO_ECHO_M)
+        before, after = drive.scans()[0].ranges, alter.blind_ahead(drive, 35.0).scans()[0].ranges
+        self.assertEqual(before[:41] + (NO_ECHO,) * 19 + before[60:], after)
+
+    def test_of_somebody_ahead_are_a_metre_away_wherever_the_vehicle_is(self):
+        drive = carmen_drive.Drive(tuple(carmen_drive.parse(flaser_log(beams=100))), carmen_drive.NO_ECHO_M)
+        for scan, as_read in zip(alter.walks_ahead(drive, 1).scans(), drive.scans()):
+            hidden = [beam for beam in range(100) if scan.ranges[beam] != as_read.ranges[beam]]
+            self.assertTrue(10 <= len(hidden) <= 20 and 30 < min(hidden) and max(hidden) < 70, hidden)
+            self.assertTrue(all(0.8 < number(scan.ranges[beam]) < 1.6 for beam in hidden), scan.ranges)
 
     def test_of_a_scanner_that_hangs_repeat_the_last_ones(self):
         numbered = iter(range(SCANS))

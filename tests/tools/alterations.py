@@ -57,6 +57,19 @@ def stamps_backwards(drive):
     return with_stamps_by(drive, lambda record, scans, stamp: f"{ends - stamp:.6f}")
 
 
+def scan_stamps_noisy(drive, sigma_s, seed):
+    """Stamps of scans by a computer that is busy: each with noise, none earlier than the one before. Those of ODOM lines are as they were."""
+    last_s = -math.inf
+
+    def noisy(record):
+        nonlocal last_s
+        if not isinstance(record, Scan):
+            return record
+        last_s = max(last_s, carmen_drive.stamp_of(record) + generator(seed, "stamps", record).gauss(0.0, sigma_s))
+        return with_stamps(record, f"{last_s:.6f}", f"{last_s:.6f}")
+    return drive.replaced(noisy)
+
+
 # ---- which scans -------------------------------------------------------------------------------------------------------------
 
 
@@ -153,6 +166,35 @@ def own_body(drive, seed, noise_m=0.01):
             for beam in range(int(first * len(words)), int(end * len(words))):
                 words[beam] = f"{range_m + draw(0.0, noise_m):.3f}"
         return words
+    return with_readings(drive, hidden)
+
+
+def blind_ahead(drive, degrees):
+    """Something close hides the middle of the view, and gives no echo."""
+    none = no_echo_word(drive)
+
+    def hidden(scan, words):
+        first_rad, step_rad = beams_of(scan)
+        return [none if abs(first_rad + beam * step_rad) <= math.radians(degrees) / 2 else word for beam, word in enumerate(words)]
+    return with_readings(drive, hidden)
+
+
+def walks_ahead(drive, seed, half_width_m=0.3, noise_m=0.02):
+    """Somebody walks ahead of the vehicle all the way, 1.0 to 1.4 m away and up to 0.1 m off its middle: 27 degrees of the view."""
+    def hidden(scan, words):
+        draw = generator(seed, "walks ahead", scan).gauss
+        ahead_m = 1.2 + 0.2 * math.sin(0.11 * scan.index)
+        left_m = 0.1 * math.sin(0.07 * scan.index)
+        first_rad, step_rad = beams_of(scan)
+        changed = []
+        for beam, word in enumerate(words):
+            bearing_rad = first_rad + beam * step_rad
+            side_m = ahead_m * math.tan(bearing_rad) - left_m if abs(bearing_rad) < 1.0 else math.inf
+            inside = abs(side_m) <= half_width_m
+            nearer_m = (ahead_m - 0.1 * math.sqrt(1.0 - (side_m / half_width_m)**2)) / math.cos(bearing_rad) if inside else math.inf
+            read_m = number(word)
+            changed.append(f"{nearer_m + draw(0.0, noise_m):.3f}" if inside and not 0.0 < read_m < nearer_m else word)
+        return changed
     return with_readings(drive, hidden)
 
 

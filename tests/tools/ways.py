@@ -53,6 +53,7 @@ STANDARD = (
     Way("missing-6s", "no odometry for 6 s", in_window(alter.missing), OF_ODOMETRY, takes_information=True),
 )
 FURTHER = (
+    Way("stamps-noisy", "5 ms of noise on the stamps of scans", lambda drive, seed: alter.scan_stamps_noisy(drive, 0.005, seed), r"stamps of scans are noisy"),
     Way("stamps-milliseconds", "stamps in milliseconds", lambda drive, seed: alter.stamps_milliseconds(drive), OF_STAMPS),
     Way("stamps-hour", "stamps jump by an hour in the middle", lambda drive, seed: alter.stamps_jump(drive), OF_STAMPS),
     Way("stamps-backwards", "stamps run backwards", lambda drive, seed: alter.stamps_backwards(drive), OF_STAMPS),
@@ -74,6 +75,8 @@ FURTHER = (
     Way("another-point", "odometry of a point 1 m ahead, unsaid", lambda drive, seed: alter.of_another_point(drive, 1.0, 0.0)),
     Way("turned-5", "scanner turned by 5 degrees, unsaid", lambda drive, seed: alter.scanner_turned(drive, 5.0), r"mounted turned"),
     Way("own-body", "a fifth of the beams sees the vehicle", lambda drive, seed: alter.own_body(drive, seed), r"vehicle itself"),
+    Way("blind-ahead", "no echo over 36 degrees in the middle of the view", lambda drive, seed: alter.blind_ahead(drive, 36.0), takes_information=True),
+    Way("walks-ahead", "somebody walks 1.2 m ahead all the way", lambda drive, seed: alter.walks_ahead(drive, seed), takes_information=True),
     Way("hung-6s", "scanner repeats its readings for 6 s", in_window(alter.hung), r"repeat the readings", takes_information=True),
     Way("second-source", "ODOM lines count 1.1x the way", lambda drive, seed: alter.second_source(drive, 1.1), OF_ODOMETRY),
 )

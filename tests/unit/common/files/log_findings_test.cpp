@@ -33,6 +33,13 @@ TEST(DescribeFindings, SaysWhatWasDoneToTheClock) {
   EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("rounded to 1 s")));
 }
 
+TEST(DescribeFindings, SaysWhichNoiseOfStampsWasRemoved) {
+  LogPlan plan = sound_plan();
+  plan.times.fault = sensing::ClockFault::kNoisy;
+  plan.times.noise_s = 0.005;
+  EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("noisy by 5.0 ms")));
+}
+
 TEST(DescribeFindings, SaysEachCorrectionInALine) {
   LogPlan plan = sound_plan();
   plan.evidence.correction.range_unit_m = 1e-3;
