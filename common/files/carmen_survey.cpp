@@ -178,6 +178,25 @@ CarmenSurvey::Lasers& CarmenSurvey::lasers_of(const LaserRecord& record) {
   return lasers_.back();
 }
 
+/// Readings without the echoes of what goes along with the vehicle, which look as if it stood.
+std::vector<float> CarmenSurvey::without_companions(const LaserRecord& record,
+                                                    const geometry::Pose2& recorded,
+                                                    Lasers& lasers) {
+  std::vector<float> readings = record.range_m;
+  const BeamLayout layout =
+      record.layout.value_or(layout_by_convention(readings.size(), std::numbers::pi));
+  const geometry::Pose2 moved = lasers.last_recorded
+                                    ? geometry::inverse(*lasers.last_recorded) * recorded
+                                    : geometry::Pose2{};
+  lasers.last_recorded = recorded;
+  for (const std::size_t beam :
+       lasers.companions.observe({record.range_m, layout.first_beam_rad, layout.beam_step_rad,
+                                  std::numeric_limits<double>::infinity()},
+                                 moved))
+    readings[beam] = std::numeric_limits<float>::quiet_NaN();
+  return readings;
+}
+
 void CarmenSurvey::add_laser(const LaserRecord& record) {
   Lasers& lasers = lasers_of(record);
   ++lasers.scans;
@@ -218,9 +237,10 @@ void CarmenSurvey::add_laser(const LaserRecord& record) {
   lasers.odometry_check.add(record.wheel_from_base);
   const geometry::Pose2& recorded =
       lasers.pose_changes ? record.wheel_from_base : chosen_odometry_lines().last_pose;
-  lasers.moved_pairs.add(record.range_m, recorded, lasers.poses.size() - 1);
-  lasers.pairs_in_small_units.add(record.range_m, recorded, lasers.poses.size() - 1);
-  lasers.turned_pairs.add(record.range_m, recorded, lasers.poses.size() - 1);
+  const std::vector<float> readings = without_companions(record, recorded, lasers);
+  lasers.moved_pairs.add(readings, recorded, lasers.poses.size() - 1);
+  lasers.pairs_in_small_units.add(readings, recorded, lasers.poses.size() - 1);
+  lasers.turned_pairs.add(readings, recorded, lasers.poses.size() - 1);
   lasers.ipc_ns.push_back(record.stamps.ipc_ns);
   lasers.logger_ns.push_back(record.stamps.logger_ns);
   for (std::size_t kind = 0; kind < odometry_lines_.size(); ++kind) {

@@ -14,6 +14,7 @@
 #include "common/files/result.hpp"
 #include "common/files/topic_choice.hpp"
 #include "common/matching/log_evidence.hpp"
+#include "common/sensing/companions.hpp"
 #include "common/sensing/odometry_sampling.hpp"
 #include "common/sensing/own_body.hpp"
 #include "common/sensing/scan_times.hpp"
@@ -247,6 +248,8 @@ class CarmenSurvey {
     std::uint64_t scans_without_readings = 0;
     std::vector<std::uint32_t> readings_by_unit;  // as written, whatever the unit
     sensing::OwnBodySurvey own_body;
+    sensing::Companions companions;
+    std::optional<geometry::Pose2> last_recorded;  // of the odometry that pairs are judged by
     matching::OdometryCheck odometry_check;
     // whatever the unit
     PairSample moved_pairs{0.25, 0.12, std::numeric_limits<double>::infinity()};
@@ -256,6 +259,8 @@ class CarmenSurvey {
   };
 
   void add_laser(const LaserRecord& record);
+  static std::vector<float> without_companions(const LaserRecord& record,
+                                               const geometry::Pose2& recorded, Lasers& lasers);
   void add_odom(const OdometryRecord& record);
   void add_param(const ParamRecord& record);
 

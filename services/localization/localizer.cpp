@@ -90,7 +90,7 @@ flow::LocalizedScan Localizer::localize_in_order(const sensing::LaserScan& scan,
   count(integration_.integrate_overdue(scan.stamp_ns, monitor_.trust(), submaps_.map()), counters_);
   if (prediction_.last()) counters_.submaps += submaps_.begin_next_if_due(odom_from_base());
   order_.accept(scan, last_stamp_ns());
-  points_.begin_scan();
+  points_.begin_scan(companions_.of(scan, prediction_.wheel_from_base_at(scan.stamp_ns)));
   if (prediction_.last()) place_next(scan);
   else begin(scan);
   if (monitor_.is_lost()) submaps_.measurements().lose_place();
@@ -227,7 +227,8 @@ flow::LocalizedScan Localizer::describe_and_remember(const sensing::LaserScan& s
                                                          .yaw_rate_radps = now.yaw_rate_radps,
                                                          .sweep_s = sweep_.sweep_s(scan)},
                                                         std::move(workspace));
-  integration_.remember({scan, localized, points_.all_in_base_m(), description_.beams_in_odom()},
+  integration_.remember({scan, localized, points_.all_in_base_m(), description_.beams_in_odom(),
+                         points_.companion_beams()},
                         admission, submaps_.map());
   localized.odom_from_base = published;
   localized.local_variance_share = covariance_.local_variance_share();

@@ -17,6 +17,7 @@
 #include "common/stages/localization_stage.hpp"
 #include "common/work/side_work.hpp"
 #include "services/localization/checkpoint.hpp"
+#include "services/localization/companion_echoes.hpp"
 #include "services/localization/expected_objects.hpp"
 #include "services/localization/frozen_scanner.hpp"
 #include "services/localization/keyframe_odometry.hpp"
@@ -183,6 +184,7 @@ class Localizer final : public stages::LocalizationStage {
   LocalizerConfig config_;
   ScanOrder order_;
   FrozenScanner frozen_;
+  CompanionEchoes companions_;
   OdometryPrediction prediction_;
   SweepCorrection sweep_;
   ExpectedObjects expected_;

@@ -37,9 +37,10 @@ grids::Ray ScanIntegration::ray_of(const ScanToMap& to_map, std::size_t beam,
   if (to_map.localized.beams[beam].end_cell != EndCell::kNoEcho) {
     const Vector2 end_m =
         to_map.localized.odom_from_base.pose.translation_m() + turn * to_map.points_in_base_m[beam];
+    const bool is_companion = std::ranges::binary_search(to_map.companion_beams, beam);
     const bool is_far = (end_m - origin_in_odom_m).squaredNorm() >
                         config_.echoes.map_range_m * config_.echoes.map_range_m;
-    return {end_m, is_far ? grids::Echo::kTooFar : grids::Echo::kStationary};
+    return {end_m, is_far || is_companion ? grids::Echo::kTooFar : grids::Echo::kStationary};
   }
   // Nearer echoes than the least range tell nothing, not even that there is free space.
   const bool is_too_near = sensing::is_echo(scan.range_m[beam], scan.scanner.max_range_m);

@@ -22,6 +22,8 @@ struct ScanToMap {
   const std::vector<geometry::Vector2>& points_in_base_m;  ///< One a beam, without the sweep's
                                                            ///< motion.
   const std::vector<geometry::Vector2>& beams_in_odom;     ///< Unit vectors, one a beam.
+  const std::vector<std::size_t>& companion_beams;         ///< That end on what goes along with the
+                                                           ///< vehicle; ascending.
 };
 
 /// What a call has done.

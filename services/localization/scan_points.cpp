@@ -16,7 +16,8 @@ constexpr double kWholeScanPoints = 100.0;
 
 }  // namespace
 
-void ScanPoints::begin_scan() {
+void ScanPoints::begin_scan(const std::vector<std::size_t>& companion_beams) {
+  companion_beams_ = companion_beams;
   left_out_beams_.clear();
   matched_before_.swap(matched_);
 }
@@ -29,7 +30,8 @@ bool ScanPoints::is_candidate(const sensing::LaserScan& scan, std::size_t beam) 
   const float range_m = scan.range_m[beam];
   return sensing::is_echo(range_m,
                           std::min(config_.echoes.match_range_m, scan.scanner.max_range_m)) &&
-         range_m >= config_.echoes.min_range_m;
+         range_m >= config_.echoes.min_range_m &&
+         !std::ranges::binary_search(companion_beams_, beam);
 }
 
 void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& odom_from_base,

@@ -18,8 +18,8 @@ class ScanPoints {
   explicit ScanPoints(const LocalizerConfig& config) : config_(config) {}
 
   /// Another scan follows: the matched points become those of the scan before, and no beam is left
-  /// out.
-  void begin_scan();
+  /// out but those that end on companions of the vehicle (ascending).
+  void begin_scan(const std::vector<std::size_t>& companion_beams = {});
 
   /// Takes the sweep's motion out of the points, at a constant velocity.
   void deskew(const sensing::LaserScan& scan, double speed_mps, double yaw_rate_radps);
@@ -37,6 +37,8 @@ class ScanPoints {
   const std::vector<geometry::Vector2>& all_in_base_m() const { return points_in_base_m_; }
   const std::vector<matching::MatchPoint>& matched() const { return matched_; }
   const std::vector<std::size_t>& matched_beams() const { return matched_beams_; }
+  /// Beams that end on what goes along with the vehicle, ascending.
+  const std::vector<std::size_t>& companion_beams() const { return companion_beams_; }
   const std::vector<matching::MatchPoint>& matched_before() const { return matched_before_; }
   /// Evidence of the matched points, as a share of that of a whole scan: each point is a
   /// measurement of its own, so that 20 echoes of a passing car do not outweigh odometry.
@@ -53,6 +55,7 @@ class ScanPoints {
   std::vector<matching::MatchPoint> matched_;
   std::vector<std::size_t> matched_beams_;
   std::vector<matching::MatchPoint> matched_before_;  ///< Of the scan before.
+  std::vector<std::size_t> companion_beams_;
   std::vector<std::size_t> candidate_beams_;  ///< Whose echoes would be matched if labels left out
                                               ///< none,
   std::vector<std::size_t> left_out_beams_;   ///< and those of them that labels leave out;

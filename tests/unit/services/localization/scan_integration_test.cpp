@@ -30,8 +30,9 @@ class ScanIntegrationTest : public ::testing::Test {
     flow::LocalizedScan localized;
     localized.beams.resize(1);
     if (range_m > 0.0F) localized.beams.front().end_cell = end_cell_;
-    integration_.remember({scan, localized, {Vector2(range_m, 0.0)}, {Vector2(1.0, 0.0)}},
-                          admission, map_);
+    integration_.remember(
+        {scan, localized, {Vector2(range_m, 0.0)}, {Vector2(1.0, 0.0)}, companion_beams_},
+        admission, map_);
   }
 
   static flow::ScanLabels labels(std::uint32_t sequence,
@@ -49,6 +50,7 @@ class ScanIntegrationTest : public ::testing::Test {
   }
 
   std::string scanner_id_ = "front";
+  std::vector<std::size_t> companion_beams_;
   flow::EndCell end_cell_ = flow::EndCell::kUnseen;
   LocalMap map_{config().map, Vector2::Zero()};
   ScanIntegration integration_{config()};
@@ -68,6 +70,16 @@ TEST_F(ScanIntegrationTest, KeepsWhatMovesOutOfTheSoMap) {
   integrate(labels(1, PointLabel::kMoving));
   EXPECT_EQ(surfels(), 0U);
   EXPECT_TRUE(saw_moving());
+}
+
+TEST_F(ScanIntegrationTest, KeepsWhatGoesAlongWithTheVehicleOutOfTheMap) {
+  companion_beams_ = {0};
+  remember(1);
+  integrate(labels(1));
+  EXPECT_EQ(surfels(), 0U);
+  EXPECT_FALSE(saw_moving());
+  integrate({2 * kPeriod_ns, 2, "front", {PointLabel::kStationary}, {{1, {0}}}});
+  EXPECT_EQ(surfels(), 0U) << "nor does tracking give it back";
 }
 
 TEST_F(ScanIntegrationTest, IgnoresLabelsOfAnUnknownScan) {

@@ -58,6 +58,14 @@ TEST(ScanPoints, LeaveOutWhatLabelsKeepOutOfTheSoMapUntilTheNextScan) {
   EXPECT_EQ(points.matched_beams().size(), 3U);
 }
 
+TEST(ScanPoints, LeaveOutWhatGoesAlongWithTheVehicle) {
+  ScanPoints points = selected();
+  points.begin_scan({1});
+  points.select(scan(), {}, {});
+  EXPECT_THAT(points.matched_beams(), ElementsAre(0U, 2U));
+  EXPECT_EQ(points.all_in_base_m().size(), 6U);
+}
+
 TEST(ScanPoints, KeepThoseOfTheScanBefore) {
   ScanPoints points = selected();
   points.begin_scan();
