@@ -8,14 +8,18 @@ namespace slammot::sensing {
 namespace {
 
 constexpr std::size_t kFewestScans = 200;
-constexpr std::size_t kHalfWindow = 15;     // scans to either side
-constexpr double kSlowest_s = 0.2;          // period
-constexpr double kRegular_s = 5e-4;         // less noise is left as it is,
-constexpr double kRegularPeriods = 0.05;    // as a share of the period, too
-constexpr double kNoisiestPeriods = 0.5;    // more is no scanner with a constant period
-constexpr double kUsualCorrelation = -0.5;  // of consecutive steps between stamps with white noise
+constexpr std::size_t kHalfWindow = 15;   // scans to either side
+constexpr double kSlowest_s = 0.2;        // period
+constexpr double kRegular_s = 5e-4;       // less noise is left as it is,
+constexpr double kRegularPeriods = 0.05;  // as a share of the period, too;
+constexpr double kRegularShare = 0.6;     // and where so many steps are the period to this share
+constexpr double kNoisiestPeriods = 5.0;  // scans that come in batches of a dozen have 3.5
+constexpr double kPausePeriods = 20.0;    // a step this much longer or shorter is a pause or a jump
+constexpr std::size_t kApart = 16;        // scans
+constexpr double kMostAddedUp = 2.0;  // RMS of the changes over so many scans by that from one to
+                                      // the next: noise of stamps has 1, steps that vary themselves
+                                      // 4
 constexpr double kTrimSigmas = 2.5;
-constexpr double kSigmaPerDeviation = 1.4826;  // median of absolute deviations of a Gaussian
 constexpr std::int64_t kLeastStepNs = 1'000;
 
 double middle_of(std::vector<double>& values) {
@@ -61,27 +65,38 @@ std::vector<double> running_median(const std::vector<double>& values) {
   return medians;
 }
 
-/// One sigma of the differences.
-double sigma_of(const std::vector<double>& values, const std::vector<double>& others) {
-  std::vector<double> deviations;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    deviations.push_back(std::abs(values[i] - others[i]));
-  return kSigmaPerDeviation * middle_of(deviations);
+/// Without those that are a pause of the log.
+double rms_below(double longest, const std::vector<double>& values) {
+  double squares = 0.0;
+  double count = 0.0;
+  for (const double value : values) {
+    if (std::abs(value) > longest) continue;
+    squares += value * value;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
-/// Of consecutive steps; those across a pause or of a stray stamp do not count.
-double correlation_of_steps(const std::vector<double>& offsets_s, double noise_s) {
-  const double longest_s = 4.0 * noise_s;
-  double product = 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 2; i < offsets_s.size(); ++i) {
-    const double before_s = offsets_s[i - 1] - offsets_s[i - 2];
-    const double step_s = offsets_s[i] - offsets_s[i - 1];
-    if (std::abs(before_s) > longest_s || std::abs(step_s) > longest_s) continue;
-    product += before_s * step_s;
-    squares += step_s * step_s;
-  }
-  return squares > 0.0 ? product / squares : 0.0;
+std::vector<double> differences(const std::vector<double>& values,
+                                const std::vector<double>& others) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < values.size(); ++i) all.push_back(values[i] - others[i]);
+  return all;
+}
+
+/// Of scans so far apart, less the periods between.
+std::vector<double> changes_over(std::size_t scans, const std::vector<double>& offsets_s) {
+  std::vector<double> changes_s;
+  for (std::size_t i = scans; i < offsets_s.size(); ++i)
+    changes_s.push_back(offsets_s[i] - offsets_s[i - scans]);
+  return changes_s;
+}
+
+/// True if most steps are the period: what else there is are missing scans.
+bool are_mostly_regular(const std::vector<double>& steps_s, double period_s) {
+  const auto regular = std::ranges::count_if(
+      steps_s, [&](double step_s) { return std::abs(step_s) < kRegularPeriods * period_s; });
+  return static_cast<double>(regular) > kRegularShare * static_cast<double>(steps_s.size());
 }
 
 double trimmed_mean(std::span<const double> values, double middle, double farthest) {
@@ -95,6 +110,14 @@ double trimmed_mean(std::span<const double> values, double middle, double farthe
   return count > 0.0 ? sum / count : middle;
 }
 
+std::vector<double> smoothed(const std::vector<double>& offsets_s, double noise_s) {
+  const std::vector<double> medians_s = running_median(offsets_s);
+  std::vector<double> means_s;
+  for (std::size_t i = 0; i < offsets_s.size(); ++i)
+    means_s.push_back(trimmed_mean(around(offsets_s, i), medians_s[i], kTrimSigmas * noise_s));
+  return means_s;
+}
+
 }  // namespace
 
 std::optional<SteadyStamps> steady_stamps(std::span<const std::int64_t> stamps_ns) {
@@ -103,18 +126,22 @@ std::optional<SteadyStamps> steady_stamps(std::span<const std::int64_t> stamps_n
   steady.period_s = period_of(stamps_ns);
   if (!(steady.period_s > 0.0) || steady.period_s > kSlowest_s) return std::nullopt;
   const std::vector<double> offsets_s = offsets_of(stamps_ns, steady.period_s);
-  const std::vector<double> medians_s = running_median(offsets_s);
-  steady.noise_s = sigma_of(offsets_s, medians_s);
+  const std::vector<double> steps_s = changes_over(1, offsets_s);
+  const double pause_s = kPausePeriods * steady.period_s;
+  steady.noise_s = rms_below(pause_s, differences(offsets_s, running_median(offsets_s)));
   if (steady.noise_s < std::max(kRegular_s, kRegularPeriods * steady.period_s) ||
       steady.noise_s > kNoisiestPeriods * steady.period_s ||
-      correlation_of_steps(offsets_s, steady.noise_s) > 0.5 * kUsualCorrelation)
+      are_mostly_regular(steps_s, steady.period_s) ||
+      rms_below(pause_s, changes_over(kApart, offsets_s)) >
+          kMostAddedUp * rms_below(pause_s, steps_s))
     return std::nullopt;
+  // Twice: the mean of a window that is no multiple of a batch has a ripple.
+  const std::vector<double> once_s = smoothed(offsets_s, steady.noise_s);
+  const std::vector<double> twice_s = smoothed(once_s, steady.noise_s);
   for (std::size_t i = 0; i < stamps_ns.size(); ++i) {
-    const double offset_s =
-        trimmed_mean(around(offsets_s, i), medians_s[i], kTrimSigmas * steady.noise_s);
     const std::int64_t stamp_ns =
         stamps_ns.front() +
-        std::llround(1e9 * (offset_s + steady.period_s * static_cast<double>(i)));
+        std::llround(1e9 * (twice_s[i] + steady.period_s * static_cast<double>(i)));
     steady.stamps_ns.push_back(i == 0 ? stamp_ns
                                       : std::max(stamp_ns, steady.stamps_ns.back() + kLeastStepNs));
   }

@@ -14,12 +14,13 @@ struct SteadyStamps {
   double period_s = 0.0;
 };
 
-/// Removes noise from the stamps of a scanner that turns at a constant rate. Each stamp becomes the
-/// trimmed mean of about 30 around it, each moved by as many periods as there are scans between, so
-/// that drift of the clock and missing scans stay. Nothing if the scanner is slower than 5 Hz; if
-/// its stamps are regular to 0.5 ms or a twentieth of the period; or if the times between scans
-/// vary themselves: noise of a stamp makes one step longer and the next one shorter (correlation
-/// of -0.5 of consecutive steps), a scanner that turns unevenly does not.
+/// Removes noise from the stamps of a scanner that turns at a constant rate: of a computer that is
+/// busy, or of a connection that delivers scans in batches. Each stamp becomes the trimmed mean of
+/// about 30 around it, each moved by as many periods as there are scans between, so that drift of
+/// the clock and missing scans stay. Nothing if the scanner is slower than 5 Hz; if its stamps are
+/// regular to 0.5 ms or a twentieth of the period, or most of its steps are; or if the times
+/// between scans vary themselves: noise of stamps does not add up from scan to scan, uneven turning
+/// does.
 std::optional<SteadyStamps> steady_stamps(std::span<const std::int64_t> stamps_ns);
 
 }  // namespace slammot::sensing

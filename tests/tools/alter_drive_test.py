@@ -142,6 +142,12 @@ class Stamps(AlteredDrive):
         self.assertEqual([stamp_of(r) for r in FLASER.records if isinstance(r, Odom)], [stamp_of(r) for r in altered.records if isinstance(r, Odom)])
         self.assert_odometry_kept(FLASER, altered)
 
+    def test_of_batches_are_those_of_their_last_scans(self):
+        altered, before = stamps(alter.scan_stamps_of_batches(FLASER, 4)), stamps(FLASER)
+        for place, stamp in enumerate(altered):
+            last = min(place // 4 * 4 + 4, len(before)) - 1
+            self.assertAlmostEqual(before[last] + 0.0002 * (place % 4), stamp, places=5)
+
     def test_index_counts_scans(self):
         altered = alter.stamps_index(FLASER)
         self.assertEqual(list(range(SCANS)), stamps(altered))

@@ -10,7 +10,7 @@ import math
 import random
 
 import carmen_drive
-from carmen_drive import Odom, Other, Scan, between, compound, inverse, number, with_pose, with_stamps
+from carmen_drive import Odom, Other, Scan, between, compound, inverse, number, stamp_of, with_pose, with_stamps
 
 # ---- stamps ------------------------------------------------------------------------------------------------------------------
 
@@ -52,7 +52,7 @@ def stamps_jump(drive, seconds=3600.0):
 
 def stamps_backwards(drive):
     """Time runs from the last stamp to the first."""
-    stamps = [carmen_drive.stamp_of(scan) for scan in drive.scans()]
+    stamps = [stamp_of(scan) for scan in drive.scans()]
     ends = min(stamps) + max(stamps)
     return with_stamps_by(drive, lambda record, scans, stamp: f"{ends - stamp:.6f}")
 
@@ -65,9 +65,24 @@ def scan_stamps_noisy(drive, sigma_s, seed):
         nonlocal last_s
         if not isinstance(record, Scan):
             return record
-        last_s = max(last_s, carmen_drive.stamp_of(record) + generator(seed, "stamps", record).gauss(0.0, sigma_s))
+        last_s = max(last_s, stamp_of(record) + generator(seed, "stamps", record).gauss(0.0, sigma_s))
         return with_stamps(record, f"{last_s:.6f}", f"{last_s:.6f}")
     return drive.replaced(noisy)
+
+
+def scan_stamps_of_batches(drive, size, between_s=0.0002):
+    """Scans come so many at a time and are stamped as they come, right after one another. Stamps of ODOM lines are as they were."""
+    scans = drive.scans()
+
+    def late(record):
+        if not isinstance(record, Scan):
+            return record
+        place = places[id(record)]
+        last = scans[min(place // size * size + size, len(scans)) - 1]
+        stamp = f"{stamp_of(last) + between_s * (place % size):.6f}"
+        return with_stamps(record, stamp, stamp)
+    places = {id(scan): place for place, scan in enumerate(scans)}
+    return drive.replaced(late)
 
 
 # ---- which scans -------------------------------------------------------------------------------------------------------------

@@ -85,6 +85,29 @@ TEST(SteadyStamps, LeavesAScannerThatTurnsUnevenly) {
   EXPECT_FALSE(steady_stamps(times));
 }
 
+TEST(SteadyStamps, SpreadsBatches) {
+  const Stamps times = regular(1'000);
+  for (const std::size_t size : {2U, 4U, 10U}) {
+    Stamps stamps;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const std::size_t last = std::min(times.size() - 1, i / size * size + size - 1);
+      stamps.push_back(times[last] + static_cast<std::int64_t>(i % size) * 200'000);
+    }
+    const auto steady = steady_stamps(stamps);
+    ASSERT_TRUE(steady) << size;
+    EXPECT_LT(step_error_s(steady->stamps_ns, times), 0.02e-9 * kPeriodNs) << size;
+  }
+}
+
+TEST(SteadyStamps, LeavesARegularClockWithMissingScans) {
+  std::mt19937 random(3);
+  std::bernoulli_distribution is_missing(0.1);
+  Stamps times;
+  for (const std::int64_t time_ns : regular(3'000))
+    if (!is_missing(random)) times.push_back(time_ns);
+  EXPECT_FALSE(steady_stamps(times));
+}
+
 TEST(SteadyStamps, LeavesScansThatAreRareOrFew) {
   Stamps rare;
   for (std::int64_t i = 0; i < 500; ++i) rare.push_back(i * 500'000'000);
