@@ -18,8 +18,8 @@ struct MotionModelConfig {
   double scale_prior = 0.02;  ///< Of the factor on wheel distance; its mean is 1.
   double heading_rate_bias_prior_radps = 0.005;
   double heading_per_metre_bias_prior = 0.02;  ///< [rad/m]: from unequal wheels.
-  double pivot_prior_m = 0.0;      ///< Of the turning point along x, for logs of the pose of the
-                                   ///< scanner.
+  double pivot_prior_m = 0.1;      ///< Of the turning point: logs take the scanner for the middle
+                                   ///< of a robot, and the mounting on a car is measured by hand.
   double askew_prior_rad = 0.006;  ///< Of the direction of odometry's way against the base's x
                                    ///< axis.
   double stamp_offset_prior_s = 0.05;    ///< Of the lateness of odometry's stamps; 0: odometry and

@@ -152,7 +152,9 @@ TEST(MotionEstimate, LearnsAboutWhichPointTheVehicleTurns) {
 }
 
 TEST(MotionEstimate, TakesTheLogsWordForThatPointWhereItIsToldTo) {
-  const MotionEstimate estimate = after_turning_about({0.02, 0.0}, kConfig);
+  MotionModelConfig config;
+  config.pivot_prior_m = 0.0;
+  const MotionEstimate estimate = after_turning_about({0.02, 0.0}, config);
   EXPECT_EQ(estimate.calibration[3], 0.0);
   EXPECT_EQ(estimate.calibration[4], 0.0);
 }
