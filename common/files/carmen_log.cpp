@@ -325,7 +325,7 @@ void CarmenLog::take(const OdometryRecord& record) {
       record.kind != plan_.odometry_lines)
     return;
   const auto stamp =
-      is_timed_by_order() ? odometry_stamp_by_order_ns() : recorded_stamp_ns(record.stamps);
+      is_timed_by_order() ? odometry_stamp_by_order_ns() : odometry_stamp_ns(record.stamps);
   if (!stamp) return is_timed_by_order() ? void() : note_malformed();
   if (!odometry_stamps_.believes(*stamp) ||
       !smooth_and_keep({*stamp - lateness_ns(), pose_correction_.next(plan_.evidence.correction,
@@ -455,6 +455,12 @@ std::optional<std::int64_t> CarmenLog::odometry_stamp_by_order_ns() {
   const double fraction =
       static_cast<double>(line) / static_cast<double>(scans_have_poses ? lines + 1 : lines);
   return before_ns + std::llround(fraction * static_cast<double>(after_ns - before_ns));
+}
+
+std::optional<std::int64_t> CarmenLog::odometry_stamp_ns(const CarmenStamps& stamps) {
+  const std::size_t line = odometry_lines_++;
+  return line < plan_.odometry_stamps_ns.size() ? std::optional(plan_.odometry_stamps_ns[line])
+                                                : recorded_stamp_ns(stamps);
 }
 
 sensing::LaserScan CarmenLog::scan_of(LaserRecord record, std::size_t scanner,

@@ -142,6 +142,7 @@ class CarmenLog {
   std::optional<std::int64_t> recorded_stamp_ns(const CarmenStamps& stamps) const;
   std::optional<std::int64_t> scan_stamp_ns(const CarmenStamps& stamps, std::size_t scanner) const;
   std::optional<std::int64_t> odometry_stamp_by_order_ns();
+  std::optional<std::int64_t> odometry_stamp_ns(const CarmenStamps& stamps);
   sensing::LaserScan scan_of(LaserRecord record, std::size_t scanner, std::int64_t stamp_ns) const;
   void correct(sensing::LaserScan& scan, std::size_t scanner) const;
   bool has_beams_of_the_main_one(std::size_t scanner) const;
@@ -175,6 +176,7 @@ class CarmenLog {
   std::uint64_t last_malformed_line_ = 0;
   bool is_finished_ = false;
   std::vector<std::uint32_t> scans_ = {0};            // by scanner
+  std::size_t odometry_lines_ = 0;                    // of the kind in use
   std::uint32_t odom_lines_since_scan_ = 0;           // of the main scanner
   std::multimap<std::int64_t, MergingScan> merging_;  // by stamp
   std::deque<LogEvent> ready_;

@@ -264,6 +264,8 @@ void CarmenSurvey::add_odom(const OdometryRecord& record) {
   lines.last_pose = record.wheel_from_base;
   lines.check.add(record.wheel_from_base);
   lines.noise.add(record.wheel_from_base);
+  lines.ipc_ns.push_back(record.stamps.ipc_ns);
+  lines.logger_ns.push_back(record.stamps.logger_ns);
   for (Lasers& lasers : lasers_) ++lasers.lines_between[kind].since_scan;
   if (record.kind == odometry_lines()) {
     newest_odom_by_order_ = {lines_, record.wheel_from_base};
@@ -450,6 +452,7 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
         lasers.lines_between[static_cast<std::size_t>(plan.odometry_lines)].before_scan;
   plan.figures = figures(lasers, plan, fallback_field_of_view_rad);
   treat_poor_odometry(lasers, plan);
+  remove_noise_of_odometry_stamps(plan);
   if (lasers.scans == 0) return plan;
   for (const Lasers& scanner : scanners) {
     plan.scanners.push_back(scanner_plan(scanner));

@@ -119,6 +119,9 @@ struct LogPlan {
   bool odometry_is_too_noisy = false;      ///< Therefore it is not used,
   bool odometry_is_too_rare = false;       ///< or therefore.
   double odometry_late_s = 0.0;  ///< Lateness of its stamps against the scans; removed on reading.
+  std::vector<std::int64_t> odometry_stamps_ns;  ///< Of ODOM lines, without the noise of the
+                                                 ///< recorded ones. Empty: the recorded ones.
+  double odometry_stamp_noise_s = 0.0;           ///< One sigma of it.
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;  ///< Readings at or beyond it are "no echo"; a scan's own record may
                              ///< have a lower limit.
@@ -281,6 +284,8 @@ class CarmenSurvey {
     bool pose_changes = false;
     matching::OdometryCheck check;
     sensing::PoseNoise noise;
+    std::vector<std::optional<std::int64_t>> ipc_ns;
+    std::vector<std::optional<std::int64_t>> logger_ns;
   };
 
   Lasers& lasers_of(const LaserRecord& record);
@@ -296,6 +301,7 @@ class CarmenSurvey {
   static void convert_readings(Lasers& lasers, double unit_m);
   double odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const;
   void treat_poor_odometry(const Lasers& lasers, LogPlan& plan) const;
+  void remove_noise_of_odometry_stamps(LogPlan& plan) const;
   matching::LogEvidence weigh(const Lasers& lasers, const LogPlan& plan,
                               double fallback_field_of_view_rad) const;
   std::vector<sensing::ScanMark> scan_marks(const Lasers& lasers,

@@ -5,6 +5,7 @@
 
 #include "common/files/carmen_survey.hpp"
 #include "common/files/pose_difference.hpp"
+#include "common/sensing/steady_stamps.hpp"
 
 namespace slammot::files {
 
@@ -101,6 +102,22 @@ void CarmenSurvey::treat_poor_odometry(const Lasers& lasers, LogPlan& plan) cons
     plan.odometry_smoothed_over = static_cast<std::size_t>(std::ceil(0.5 * kWindow_s / period_s));
     if (plan.odometry == OdometrySource::kBoth) plan.odometry = OdometrySource::kLaserRecords;
   }
+}
+
+void CarmenSurvey::remove_noise_of_odometry_stamps(LogPlan& plan) const {
+  const bool uses_lines =
+      plan.odometry == OdometrySource::kOdomLines || plan.odometry == OdometrySource::kBoth;
+  if (!uses_lines || plan.clock == LogClock::kNominal || plan.is_timed_by_order()) return;
+  const OdometryLines& lines = chosen_odometry_lines();
+  std::vector<std::int64_t> stamps_ns;
+  for (const auto& stamp_ns : plan.clock == LogClock::kIpc ? lines.ipc_ns : lines.logger_ns) {
+    if (!stamp_ns) return;
+    stamps_ns.push_back(*stamp_ns);
+  }
+  std::optional<sensing::SteadyStamps> steady = sensing::steady_stamps(stamps_ns);
+  if (!steady) return;
+  plan.odometry_stamps_ns = std::move(steady->stamps_ns);
+  plan.odometry_stamp_noise_s = steady->noise_s;
 }
 
 OdometrySource CarmenSurvey::odometry_source(const Lasers& lasers, const LogPlan& plan) const {

@@ -72,6 +72,8 @@ void describe_signs(const LogPlan& plan, std::vector<std::string>& findings) {
   else if (correction.mirrors_position)
     findings.emplace_back(
         "positions of odometry are mirrored or have their axes swapped: mirrored back");
+  else if (correction.position_turn_rad != 0.0)
+    findings.emplace_back("way by odometry has the wrong sign: turned round");
   if (correction.reverses_beams)
     findings.push_back("beams go clockwise, by " + pairs +
                        ": reversed, as odometry moves on the arcs of its turns (if it is mirrored "
@@ -132,6 +134,9 @@ void describe_doubts(const LogPlan& plan, std::vector<std::string>& findings) {
   if (plan.odometry_held_scans > 0 && plan.odometry != OdometrySource::kNone)
     findings.emplace_back(
         "odometry comes less often than scans, which repeat its last pose: interpolated");
+  if (plan.odometry_stamp_noise_s > 0.0)
+    findings.push_back(text("stamps of odometry are noisy by %.1f ms: taken from its steady rate",
+                            1e3 * plan.odometry_stamp_noise_s));
   if (plan.odometry_smoothed_over > 0)
     findings.push_back(
         text("odometry is noisy or rounded from one pose to the next: smoothed over %zu",

@@ -519,6 +519,20 @@ namespace {
 constexpr double kTurnedSeen_rad = 0.4;  // of a scanner: by single pairs; less needs all of them
 constexpr double kOtherSize = 0.15;      // of turns; less is learned during the drive
 
+/// A scanner that seems to look backwards, and to be as far behind the vehicle's middle as it is
+/// said to be ahead: its pose is as said, and the way by odometry has the wrong sign.
+bool way_has_the_wrong_sign(const OdometryPoint& point, const AssumedBeams& beams,
+                            const LogCorrection& correction) {
+  constexpr double kSigmas = 4.0;
+  constexpr double kRightTurn_rad = 0.01;
+  const geometry::Vector2& said_m = beams.laser_in_base_m;
+  const geometry::Vector2 found_m = point.odometry_from_laser.translation_m();
+  const double sigma_m = std::hypot(point.sigma.x_m, point.sigma.y_m);
+  return std::abs(std::abs(correction.laser_turn_rad) - pi) < kRightTurn_rad &&
+         !correction.mirrors_position && !correction.mirrors_heading &&
+         (found_m - said_m).norm() > (found_m + said_m).norm() + kSigmas * sigma_m;
+}
+
 /// A scanner turned a little, and odometry of another point of the vehicle: each where the pairs
 /// determine it well enough to tell it from none.
 void place_odometry(const std::optional<OdometryPoint>& point, const AssumedBeams& beams,
@@ -587,9 +601,14 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
   for (const MatchedPair& pair : matched)
     evidence.motions.push_back({pair.first_scan, pair.second_scan, pair.by_scans.heading_rad,
                                 pair.by_scans.translation_m().norm()});
-  place_odometry(odometry_point(looked_at, with_field(beams, correction.field_factor),
-                                correction.range_unit_m, matched),
-                 beams, correction);
+  std::optional<OdometryPoint> point = odometry_point(
+      looked_at, with_field(beams, correction.field_factor), correction.range_unit_m, matched);
+  if (point && way_has_the_wrong_sign(*point, beams, correction)) {
+    correction.laser_turn_rad = 0.0;
+    correction.position_turn_rad = wrap_angle(correction.position_turn_rad + pi);
+    point->odometry_from_laser = Pose2{0.0, 0.0, pi} * point->odometry_from_laser;
+  }
+  place_odometry(point, beams, correction);
   evidence.way_scale = way_scale(straight_pairs);
   evidence.turn_scale = turn_scale_of_both(matched);
   if (evidence.turn_scale > 0.0 && std::abs(evidence.turn_scale - 1.0) > kOtherSize)

@@ -99,6 +99,15 @@ bool are_mostly_regular(const std::vector<double>& steps_s, double period_s) {
   return static_cast<double>(regular) > kRegularShare * static_cast<double>(steps_s.size());
 }
 
+/// True for scans that were logged in another order than they were taken in: their stamps are
+/// right.
+bool are_regular_in_another_order(std::span<const std::int64_t> stamps_ns, double period_s) {
+  if (std::ranges::is_sorted(stamps_ns)) return false;
+  std::vector<std::int64_t> in_order(stamps_ns.begin(), stamps_ns.end());
+  std::ranges::sort(in_order);
+  return are_mostly_regular(changes_over(1, offsets_of(in_order, period_s)), period_s);
+}
+
 double trimmed_mean(std::span<const double> values, double middle, double farthest) {
   double sum = 0.0;
   double count = 0.0;
@@ -124,7 +133,9 @@ std::optional<SteadyStamps> steady_stamps(std::span<const std::int64_t> stamps_n
   if (stamps_ns.size() < kFewestScans) return std::nullopt;
   SteadyStamps steady;
   steady.period_s = period_of(stamps_ns);
-  if (!(steady.period_s > 0.0) || steady.period_s > kSlowest_s) return std::nullopt;
+  if (!(steady.period_s > 0.0) || steady.period_s > kSlowest_s ||
+      are_regular_in_another_order(stamps_ns, steady.period_s))
+    return std::nullopt;
   const std::vector<double> offsets_s = offsets_of(stamps_ns, steady.period_s);
   const std::vector<double> steps_s = changes_over(1, offsets_s);
   const double pause_s = kPausePeriods * steady.period_s;

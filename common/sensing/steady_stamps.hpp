@@ -20,7 +20,7 @@ struct SteadyStamps {
 /// the clock and missing scans stay. Nothing if the scanner is slower than 5 Hz; if its stamps are
 /// regular to 0.5 ms or a twentieth of the period, or most of its steps are; or if the times
 /// between scans vary themselves: noise of stamps does not add up from scan to scan, uneven turning
-/// does.
+/// does; or if they are regular in another order.
 std::optional<SteadyStamps> steady_stamps(std::span<const std::int64_t> stamps_ns);
 
 }  // namespace slammot::sensing

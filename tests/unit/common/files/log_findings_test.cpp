@@ -33,6 +33,19 @@ TEST(DescribeFindings, SaysWhatWasDoneToTheClock) {
   EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("rounded to 1 s")));
 }
 
+TEST(DescribeFindings, SaysThatTheWayHasTheWrongSign) {
+  LogPlan plan = sound_plan();
+  plan.evidence.correction.position_turn_rad = 3.14159;
+  EXPECT_THAT(describe_findings(plan),
+              ElementsAre(HasSubstr("way by odometry has the wrong sign")));
+}
+
+TEST(DescribeFindings, SaysThatStampsOfOdometryAreNoisy) {
+  LogPlan plan = sound_plan();
+  plan.odometry_stamp_noise_s = 0.004;
+  EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("odometry are noisy by 4.0 ms")));
+}
+
 TEST(DescribeFindings, SaysWhichNoiseOfStampsWasRemoved) {
   LogPlan plan = sound_plan();
   plan.times.fault = sensing::ClockFault::kNoisy;

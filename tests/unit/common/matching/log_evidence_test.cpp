@@ -65,6 +65,7 @@ struct Recording {
   double field_rad = pi;
   double looks_rad = 0.0;
   double range_unit_m = 1.0;
+  double ahead_m = 0.0;  // of the base is the laser, as is said
 };
 
 /// Evidence of the drive, recorded in some way, where a half circle is assumed.
@@ -74,7 +75,8 @@ LogEvidence evidence_of(const Recording& recording) {
   std::optional<ScanPair> before;
   for (const Pose2& pose : drive()) {
     ScanPair now;
-    now.first = scan_at(pose * Pose2{0.0, 0.0, recording.looks_rad}, recording.field_rad);
+    now.first =
+        scan_at(pose * Pose2{recording.ahead_m, 0.0, recording.looks_rad}, recording.field_rad);
     recording.scan(now.first);
     now.first_recorded = recording.pose(pose);
     check.add(now.first_recorded);
@@ -82,8 +84,9 @@ LogEvidence evidence_of(const Recording& recording) {
       pairs.push_back({before->first, now.first, before->first_recorded, now.first_recorded});
     before = now;
   }
-  return weigh_log(pairs, {-0.5 * pi, pi / static_cast<double>(kBeams - 1), 0.0}, check,
-                   recording.range_unit_m);
+  return weigh_log(pairs,
+                   {-0.5 * pi, pi / static_cast<double>(kBeams - 1), 0.0, {recording.ahead_m, 0.0}},
+                   check, recording.range_unit_m);
 }
 
 TEST(WeighLog, CorrectsNothingOfASoundLog) {
@@ -311,6 +314,19 @@ TEST(WeighLog, KeepsAFieldOfViewThatIsOneBeamWiderThanAUsualOne) {
   EXPECT_EQ(evidence_of({.pose = turned_more(1.3), .field_rad = kOneBeamLess_rad})
                 .correction.field_factor,
             1.0);
+}
+
+TEST(WeighLog, TellsAWayWithTheWrongSignFromAScannerThatLooksBackwards) {
+  const auto reversed = redriven([](const Pose2& step) {
+    return Pose2{-step.x_m, -step.y_m, step.heading_rad};
+  });
+  const LogCorrection correction = evidence_of({.pose = reversed, .ahead_m = 1.0}).correction;
+  EXPECT_EQ(correction.laser_turn_rad, 0.0);
+  EXPECT_NEAR(std::abs(correction.position_turn_rad), pi, 1e-9);
+  EXPECT_EQ(correction.odometry_from_base, Pose2::identity());
+  const LogCorrection turned = evidence_of({.looks_rad = pi, .ahead_m = 1.0}).correction;
+  EXPECT_NEAR(std::abs(turned.laser_turn_rad), pi, 1e-9);
+  EXPECT_EQ(turned.position_turn_rad, 0.0);
 }
 
 TEST(WeighLog, FindsAScannerThatLooksBackwards) {

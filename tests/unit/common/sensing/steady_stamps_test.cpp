@@ -108,6 +108,12 @@ TEST(SteadyStamps, LeavesARegularClockWithMissingScans) {
   EXPECT_FALSE(steady_stamps(times));
 }
 
+TEST(SteadyStamps, LeavesRegularScansInAnotherOrder) {
+  Stamps stamps = regular(1'000);
+  for (std::size_t i = 0; i + 3 < stamps.size(); i += 3) std::swap(stamps[i], stamps[i + 2]);
+  EXPECT_FALSE(steady_stamps(stamps));
+}
+
 TEST(SteadyStamps, LeavesScansThatAreRareOrFew) {
   Stamps rare;
   for (std::int64_t i = 0; i < 500; ++i) rare.push_back(i * 500'000'000);
