@@ -124,6 +124,26 @@ MotionEstimate at_start(const MotionModelConfig& config) {
   return estimate;
 }
 
+bool is_pivot_certain(const MotionEstimate& estimate) {
+  constexpr double kLeast_m = 0.05;
+  constexpr double kSigmas = 4.0;
+  const geometry::Vector2 pivot = pivot_m(estimate);
+  const geometry::Matrix2 covariance = estimate.covariance.block<2, 2>(kPivot, kPivot);
+  return pivot.norm() > kLeast_m && pivot.dot(covariance.ldlt().solve(pivot)) > kSigmas * kSigmas;
+}
+
+MotionEstimate with_pivot_of(MotionEstimate estimate, const MotionEstimate& other) {
+  constexpr double kLearnedBeside_m = 0.1;  // one sigma: it was matched to a map that was made
+                                            // without it
+  estimate.calibration.segment<2>(kPivot - 3) = pivot_m(other);
+  estimate.covariance.middleRows<2>(kPivot).setZero();
+  estimate.covariance.middleCols<2>(kPivot).setZero();
+  estimate.covariance.block<2, 2>(kPivot, kPivot) =
+      other.covariance.block<2, 2>(kPivot, kPivot) +
+      squared(kLearnedBeside_m) * geometry::Matrix2::Identity();
+  return estimate;
+}
+
 geometry::UncertainPose2 predict_step(const Pose2& before_from_base_by_wheels, double duration_s,
                                       const MotionCalibration& calibration,
                                       const MotionModelConfig& config) {

@@ -18,13 +18,15 @@ struct MotionModelConfig {
   double scale_prior = 0.02;  ///< Of the factor on wheel distance; its mean is 1.
   double heading_rate_bias_prior_radps = 0.005;
   double heading_per_metre_bias_prior = 0.02;  ///< [rad/m]: from unequal wheels.
-  double pivot_prior_m = 0.1;      ///< Of the turning point: logs take the scanner for the middle
-                                   ///< of a robot, and the mounting on a car is measured by hand.
-  double askew_prior_rad = 0.006;  ///< Of the direction of odometry's way against the base's x
-                                   ///< axis.
-  double stamp_offset_prior_s = 0.05;    ///< Of the lateness of odometry's stamps; 0: odometry and
-                                         ///< scans have one clock.
-  double scale_walk_per_sqrt_m = 5e-5;   ///< Random walk of the scale with the distance.
+  double pivot_prior_m = 0.0;           ///< Of the turning point, for logs of the pose of the
+                                        ///< scanner.
+  double doubted_pivot_prior_m = 0.2;   ///< Where that is 0: of a mounting that is not as said. It
+                                        ///< is estimated beside, and used once it is certain.
+  double askew_prior_rad = 0.006;       ///< Of the direction of odometry's way against the base's x
+                                        ///< axis.
+  double stamp_offset_prior_s = 0.05;   ///< Of the lateness of odometry's stamps; 0: odometry and
+                                        ///< scans have one clock.
+  double scale_walk_per_sqrt_m = 5e-5;  ///< Random walk of the scale with the distance.
   double heading_rate_bias_walk = 5e-5;  ///< Random walk of the heading-rate bias with time [rad/s
                                          ///< per sqrt(s)].
   double stamp_offset_walk = 0.001;  ///< Random walk of the lateness with time [s per sqrt(s)]; its
@@ -76,6 +78,7 @@ struct MotionEstimate {
   double scale() const { return 1.0 + calibration.x(); }
 };
 
+constexpr int kPivot = 6;        ///< First of the two rows of the turning point in the covariance.
 constexpr int kStampOffset = 8;  ///< Row of the lateness in the covariance.
 constexpr int kAskew = 9;        ///< Row of the direction of odometry's way in the covariance.
 
@@ -83,6 +86,17 @@ constexpr int kAskew = 9;        ///< Row of the direction of odometry's way in 
 inline double stamp_offset_s(const MotionEstimate& estimate) {
   return estimate.calibration[kStampOffset - 3];
 }
+
+/// Turning point: the base ahead and to the left of odometry's reference point.
+inline geometry::Vector2 pivot_m(const MotionEstimate& estimate) {
+  return estimate.calibration.segment<2>(kPivot - 3);
+}
+
+/// True if the turning point is surely not the base.
+bool is_pivot_certain(const MotionEstimate& estimate);
+
+/// The estimate with the turning point of another one of the same motion.
+MotionEstimate with_pivot_of(MotionEstimate estimate, const MotionEstimate& other);
 
 /// Initial state: the origin of odom, with the priors of the calibration.
 MotionEstimate at_start(const MotionModelConfig& config);

@@ -10,7 +10,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x736c616d6d6f7467;  // "slammotg": the last letter counts the forms
+constexpr std::uint64_t kMark = 0x736c616d6d6f7468;  // "slammoth": the last letter counts the forms
                                                      // of a checkpoint
 constexpr double kFastestRestored = 1e3;  // m/s or rad/s: no vehicle was faster when the checkpoint
                                           // was made
@@ -99,6 +99,8 @@ void visit_parts(AnyCheckpoint& checkpoint, Visitor visit) {
   visit_estimate(checkpoint.prediction.estimate, visit);
   visit_estimate(checkpoint.prediction.with_stamp_offset, visit);
   visit(checkpoint.prediction.applies_stamp_offset);
+  visit_estimate(checkpoint.prediction.with_pivot, visit);
+  visit(checkpoint.prediction.applies_pivot);
   visit_belief(checkpoint.prediction.belief, visit);
   visit_monitor(checkpoint.monitor, visit);
   visit(checkpoint.covariance.factors.of_axis);
@@ -195,10 +197,11 @@ bool is_sound(const SubmapSequence::State& submaps) {
 bool is_sound(const Checkpoint& checkpoint) {
   return is_sound(checkpoint.prediction.estimate) &&
          is_sound(checkpoint.prediction.with_stamp_offset) &&
-         is_sound(*checkpoint.prediction.last) && is_sound(checkpoint.prediction.belief) &&
-         is_sound(checkpoint.keyframes) && is_sound(checkpoint.monitor) &&
-         is_sound(checkpoint.covariance) && is_sound(checkpoint.submaps) &&
-         std::isfinite(checkpoint.sweep_factor.value) && checkpoint.sweep_factor.variance >= 0.0 &&
+         is_sound(checkpoint.prediction.with_pivot) && is_sound(*checkpoint.prediction.last) &&
+         is_sound(checkpoint.prediction.belief) && is_sound(checkpoint.keyframes) &&
+         is_sound(checkpoint.monitor) && is_sound(checkpoint.covariance) &&
+         is_sound(checkpoint.submaps) && std::isfinite(checkpoint.sweep_factor.value) &&
+         checkpoint.sweep_factor.variance >= 0.0 &&
          std::ranges::all_of(checkpoint.odometry, [](const sensing::Odometry& sample) {
            return is_believable(sample.wheel_from_base);
          });

@@ -23,6 +23,7 @@ void OdometryPrediction::observe(const Step& step, const ScanMatch& match) {
       match.is_believed ? sensing::matched(step.after, match.odom_from_base) : step.after;
   if (step.duration_s > 0.0) learn_wheels(step, match);
   learn_stamp_offset(step, match);
+  learn_pivot(step, match);
   renew_map(matched_step(step, match), match);
   state_.last = last_after(step, match);
 }
@@ -56,6 +57,7 @@ void OdometryPrediction::take_back_standing(const sensing::OdometryComparison& c
   const geometry::UncertainPose2 placed = geometry::compound(keyframe, *comparison.by_scans);
   state_.estimate = sensing::put_at(state_.estimate, placed);
   state_.with_stamp_offset = sensing::put_at(state_.with_stamp_offset, placed);
+  state_.with_pivot = sensing::put_at(state_.with_pivot, placed);
 }
 
 /// How long odometry has not been confirmed, at the scan of a comparison.
@@ -100,12 +102,38 @@ void OdometryPrediction::adopt_wheel_factors() {
   std::swap(belief.weights[sensing::index_of(sensing::StepExplanation::kWheels)],
             belief.weights[sensing::index_of(sensing::StepExplanation::kRecalibrated)]);
   const sensing::MotionEstimate fresh = sensing::at_start(motion_of_one_clock_);
-  for (sensing::MotionEstimate* estimate : {&state_.estimate, &state_.with_stamp_offset}) {
+  for (sensing::MotionEstimate* estimate :
+       {&state_.estimate, &state_.with_stamp_offset, &state_.with_pivot}) {
     estimate->calibration.head<3>().setZero();
     estimate->covariance.middleRows<3>(3).setZero();
     estimate->covariance.middleCols<3>(3).setZero();
     estimate->covariance.block<3, 3>(3, 3) = fresh.covariance.block<3, 3>(3, 3);
   }
+}
+
+/// Learns a turning point beside the estimate, and gives it to it once it is certain.
+void OdometryPrediction::learn_pivot(const Step& step, const ScanMatch& match) {
+  if (config_.motion.pivot_prior_m > 0.0 || config_.motion.doubted_pivot_prior_m == 0.0 ||
+      state_.applies_pivot)
+    return;
+  sensing::MotionEstimate& watched = state_.with_pivot;
+  const bool tells = step.explanation == sensing::StepExplanation::kWheels && step.is_by_wheels() &&
+                     !step.is_standing && match.is_believed && !match.was_sampled && !match.is_lost;
+  const double offset_s = state_.applies_stamp_offset ? stamp_offset_s() : 0.0;
+  const auto by_wheels =
+      tells ? wheel_step(step.stamp_ns, std::llround(offset_s * 1e9)) : std::nullopt;
+  if (!by_wheels) {
+    watched = sensing::put_at(watched, state_.estimate.uncertain_pose());
+    return;
+  }
+  const sensing::MotionEstimate predicted =
+      sensing::moved_by_wheels(watched, {*by_wheels, step.duration_s}, motion_of_one_clock_);
+  watched = sensing::matched(predicted, sensing::matched_from(predicted.uncertain_pose(),
+                                                              step.prior(), match.odom_from_base));
+  if (!sensing::is_pivot_certain(watched)) return;
+  state_.estimate = sensing::with_pivot_of(state_.estimate, watched);
+  state_.with_stamp_offset = sensing::with_pivot_of(state_.with_stamp_offset, watched);
+  state_.applies_pivot = true;
 }
 
 /// The map grows by what is matched to it, with the errors of those matches in it.
@@ -115,6 +143,7 @@ void OdometryPrediction::renew_map(const Pose2& before_from_base, const ScanMatc
       1.0 - std::exp(-moved_m * match.new_share / config_.match.new_below_m);
   state_.estimate = sensing::against_renewed_map(state_.estimate, renewed_share);
   state_.with_stamp_offset = sensing::against_renewed_map(state_.with_stamp_offset, renewed_share);
+  state_.with_pivot = sensing::against_renewed_map(state_.with_pivot, renewed_share);
 }
 
 OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step,

@@ -117,6 +117,9 @@ class OdometryPrediction {
     sensing::MotionEstimate with_stamp_offset;  ///< Of the same motion, until then: what it would
                                                 ///< be with the offset learned.
     bool applies_stamp_offset = false;
+    sensing::MotionEstimate with_pivot;  ///< Of the same motion, until applies_pivot: with a
+                                         ///< turning point that is not as said.
+    bool applies_pivot = false;
     std::optional<LastScan> last;  ///< None before the first scan.
     sensing::OdometryBelief belief;
   };
@@ -208,6 +211,7 @@ class OdometryPrediction {
   void take_back_standing(const sensing::OdometryComparison& comparison);
   void learn_wheels(const Step& step, const ScanMatch& match);
   void learn_stamp_offset(const Step& step, const ScanMatch& match);
+  void learn_pivot(const Step& step, const ScanMatch& match);
   void renew_map(const geometry::Pose2& before_from_base, const ScanMatch& match);
   double unconfirmed_s(const sensing::OdometryComparison& comparison) const;
   LastScan last_after(const Step& step, const ScanMatch& match) const;

@@ -151,10 +151,29 @@ TEST(MotionEstimate, LearnsAboutWhichPointTheVehicleTurns) {
   EXPECT_NEAR(estimate.calibration[4], -0.08, 4.0 * sigma_m);
 }
 
-TEST(MotionEstimate, TakesTheLogsWordForThatPointWhereItIsToldTo) {
+TEST(MotionEstimate, IsCertainOfThatPointOnlyWhereItIsNotTheBase) {
   MotionModelConfig config;
-  config.pivot_prior_m = 0.0;
-  const MotionEstimate estimate = after_turning_about({0.02, 0.0}, config);
+  config.pivot_prior_m = 0.2;
+  EXPECT_TRUE(is_pivot_certain(after_turning_about({0.15, -0.08}, config)));
+  EXPECT_FALSE(is_pivot_certain(after_turning_about({0.0, 0.0}, config)));
+  EXPECT_FALSE(is_pivot_certain(at_start(config)));
+}
+
+TEST(MotionEstimate, TakesThatPointOverFromAnother) {
+  MotionModelConfig config;
+  config.pivot_prior_m = 0.2;
+  const MotionEstimate other = after_turning_about({0.15, -0.08}, config);
+  const MotionEstimate before = after_turning_about({0.15, -0.08}, kConfig);
+  const MotionEstimate after = with_pivot_of(before, other);
+  EXPECT_EQ(pivot_m(after), pivot_m(other));
+  EXPECT_EQ(after.odom_from_base, before.odom_from_base);
+  EXPECT_GT(after.covariance(6, 6), other.covariance(6, 6));
+  EXPECT_EQ(after.covariance(6, 0), 0.0);
+  EXPECT_EQ(after.covariance(0, 0), before.covariance(0, 0));
+}
+
+TEST(MotionEstimate, TakesTheLogsWordForThatPointWhereItIsToldTo) {
+  const MotionEstimate estimate = after_turning_about({0.02, 0.0}, kConfig);
   EXPECT_EQ(estimate.calibration[3], 0.0);
   EXPECT_EQ(estimate.calibration[4], 0.0);
 }

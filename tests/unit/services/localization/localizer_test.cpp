@@ -94,8 +94,7 @@ TEST(Localizer, FindsOutThatAScannerTurnsTheOtherWayRound) {
     config.match.fine_gate_m = 0.15;
     config.match.proven_after_m = 0.0;
     config.motion.position_noise_per_m = config.motion.sideways_noise_per_m = 0.03;
-    config.motion.askew_prior_rad = 0.0;  // what a sweep does to a scan looks much like it,
-    config.motion.pivot_prior_m = 0.0;    // and like another turning point
+    config.motion.askew_prior_rad = 0.0;  // what a sweep does to a scan looks much like it
     Localizer localizer(config);
     double told_s = 0.0;
     for (std::uint32_t number = 0; number < 300; ++number) {

@@ -87,6 +87,7 @@ struct DriveResult {
   Pose2 error;                   ///< Of the last pose, in odom.
   geometry::Matrix3 covariance;  ///< Of the last pose.
   LocalizerCounters counters;
+  geometry::Vector2 pivot_m;  ///< Learned turning point.
 };
 
 DriveResult drive_with(const DriveSetup& setup, const Fault& fault, std::uint32_t scans,
@@ -113,6 +114,7 @@ DriveResult drive_with(const DriveSetup& setup, const Fault& fault, std::uint32_
     result.covariance = localized->odom_from_base.covariance;
   }
   result.counters = localizer.counters();
+  result.pivot_m = localizer.calibration().segment<2>(3);
   return result;
 }
 
@@ -135,6 +137,25 @@ Fault slip(double mps, double scan_period_s) {
   return during(6.0, 12.0, [=](const Pose2& step, double) {
     return Pose2{step.x_m + mps * scan_period_s, step.y_m, step.heading_rad};
   });
+}
+
+/// Wheels that speak of another point of the vehicle.
+Fault of_point(const Pose2& base_from_point) {
+  return [=](const Pose2& step, double) {
+    return geometry::inverse(base_from_point) * step * base_from_point;
+  };
+}
+
+TEST(OdometryFaults, AreNotAMountingThatIsOffBySomeDecimetres) {
+  for (const double ahead_m : {-0.3, 0.2, 0.3}) {
+    const DriveResult with = drive_with(car(), of_point({ahead_m, 0.0, 0.0}), kScans);
+    EXPECT_LT(with.worst_m, 0.3) << ahead_m;
+    EXPECT_LT(std::hypot(with.error.x_m, with.error.y_m), kGood_m) << ahead_m;
+    EXPECT_LT(with.worst_rad, kGood_rad) << ahead_m;
+    EXPECT_NEAR(with.pivot_m.x(), -ahead_m, 0.1);
+    EXPECT_NEAR(with.pivot_m.y(), 0.0, 0.1);
+  }
+  EXPECT_TRUE(drive_with(car(), sound, kScans).pivot_m.isZero());
 }
 
 TEST(OdometryFaults, AreNotFoundWhereThereAreNone) {
