@@ -139,12 +139,13 @@ std::optional<SteadyStamps> steady_stamps(std::span<const std::int64_t> stamps_n
   const std::vector<double> offsets_s = offsets_of(stamps_ns, steady.period_s);
   const std::vector<double> steps_s = changes_over(1, offsets_s);
   const double pause_s = kPausePeriods * steady.period_s;
-  steady.noise_s = rms_below(pause_s, differences(offsets_s, running_median(offsets_s)));
-  if (steady.noise_s < std::max(kRegular_s, kRegularPeriods * steady.period_s) ||
-      steady.noise_s > kNoisiestPeriods * steady.period_s ||
-      are_mostly_regular(steps_s, steady.period_s) ||
+  if (are_mostly_regular(steps_s, steady.period_s) ||
       rms_below(pause_s, changes_over(kApart, offsets_s)) >
           kMostAddedUp * rms_below(pause_s, steps_s))
+    return std::nullopt;
+  steady.noise_s = rms_below(pause_s, differences(offsets_s, running_median(offsets_s)));
+  if (steady.noise_s < std::max(kRegular_s, kRegularPeriods * steady.period_s) ||
+      steady.noise_s > kNoisiestPeriods * steady.period_s)
     return std::nullopt;
   // Twice: the mean of a window that is no multiple of a batch has a ripple.
   const std::vector<double> once_s = smoothed(offsets_s, steady.noise_s);

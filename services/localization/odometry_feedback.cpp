@@ -11,6 +11,25 @@ using geometry::Pose2;
 
 constexpr double kUsualShareMemory = 0.05;  // Weight of one scan in the usual matched share.
 
+constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off:
+                                        // docs/decisions/time-and-stamps.md
+
+/// True if the step was made by wheels, and the match was free to contradict them.
+bool tells_of_calibration(const Step& step, const ScanMatch& match) {
+  return step.explanation == sensing::StepExplanation::kWheels && step.is_by_wheels() &&
+         !step.is_standing && match.is_believed && !match.was_sampled && !match.is_lost;
+}
+
+/// Another estimate of the same motion after the step, with the same match.
+sensing::MotionEstimate beside(const sensing::MotionEstimate& before,
+                               const sensing::WheelStep& by_wheels,
+                               const sensing::MotionModelConfig& motion, const Step& step,
+                               const ScanMatch& match) {
+  const sensing::MotionEstimate predicted = sensing::moved_by_wheels(before, by_wheels, motion);
+  return sensing::matched(predicted, sensing::matched_from(predicted.uncertain_pose(), step.prior(),
+                                                           match.odom_from_base));
+}
+
 bool is_sure_of_velocity(const sensing::MotionEstimate& estimate) {
   constexpr double kSure_mps = 1.0;  // one sigma
   return estimate.covariance.bottomRightCorner<2, 2>()(0, 0) < kSure_mps * kSure_mps;
@@ -111,26 +130,37 @@ void OdometryPrediction::adopt_wheel_factors() {
   }
 }
 
-/// Learns a turning point beside the estimate, and gives it to it once it is certain.
+/// Learns the stamps' offset beside the estimate, which takes it over once it is certain.
+void OdometryPrediction::learn_stamp_offset(const Step& step, const ScanMatch& match) {
+  if (config_.motion.stamp_offset_prior_s == 0.0 || state_.applies_stamp_offset) return;
+  sensing::MotionEstimate& watched = state_.with_stamp_offset;
+  const double offset_s = sensing::stamp_offset_s(watched);
+  const bool tells = tells_of_calibration(step, match) && tells_of_stamps(step.stamp_ns);
+  const auto by_wheels = tells ? wheel_step(step.stamp_ns, to_ns(offset_s)) : std::nullopt;
+  watched =
+      by_wheels
+          ? beside(watched,
+                   {*by_wheels, step.duration_s, step_by_stamp_offset(step.stamp_ns, offset_s)},
+                   config_.motion, step, match)
+          : sensing::put_at(watched, state_.estimate.uncertain_pose());
+  if (!by_wheels || std::abs(stamp_offset_s()) < kCertainSigmas * stamp_offset_sigma_s()) return;
+  state_.estimate = watched;
+  state_.applies_stamp_offset = true;
+}
+
+/// Learns a turning point beside the estimate, which takes it over once it is certain.
 void OdometryPrediction::learn_pivot(const Step& step, const ScanMatch& match) {
   if (config_.motion.pivot_prior_m > 0.0 || config_.motion.doubted_pivot_prior_m == 0.0 ||
       state_.applies_pivot)
     return;
   sensing::MotionEstimate& watched = state_.with_pivot;
-  const bool tells = step.explanation == sensing::StepExplanation::kWheels && step.is_by_wheels() &&
-                     !step.is_standing && match.is_believed && !match.was_sampled && !match.is_lost;
   const double offset_s = state_.applies_stamp_offset ? stamp_offset_s() : 0.0;
   const auto by_wheels =
-      tells ? wheel_step(step.stamp_ns, std::llround(offset_s * 1e9)) : std::nullopt;
-  if (!by_wheels) {
-    watched = sensing::put_at(watched, state_.estimate.uncertain_pose());
-    return;
-  }
-  const sensing::MotionEstimate predicted =
-      sensing::moved_by_wheels(watched, {*by_wheels, step.duration_s}, motion_of_one_clock_);
-  watched = sensing::matched(predicted, sensing::matched_from(predicted.uncertain_pose(),
-                                                              step.prior(), match.odom_from_base));
-  if (!sensing::is_pivot_certain(watched)) return;
+      tells_of_calibration(step, match) ? wheel_step(step.stamp_ns, to_ns(offset_s)) : std::nullopt;
+  watched = by_wheels
+                ? beside(watched, {*by_wheels, step.duration_s}, motion_of_one_clock_, step, match)
+                : sensing::put_at(watched, state_.estimate.uncertain_pose());
+  if (!by_wheels || !sensing::is_pivot_certain(watched)) return;
   state_.estimate = sensing::with_pivot_of(state_.estimate, watched);
   state_.with_stamp_offset = sensing::with_pivot_of(state_.with_stamp_offset, watched);
   state_.applies_pivot = true;

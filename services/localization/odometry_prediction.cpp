@@ -20,14 +20,8 @@ constexpr double kFarStepShare = 8.0;    // ones is a jump: of a vehicle that dr
 constexpr double kVelocityOver_s = 0.1;  // changes of the velocity take longer
 constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: what the next steps
                                                           // are compared with
-constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 1.2 off:
-                                        // docs/decisions/time-and-stamps.md
-constexpr std::int64_t kLongestLag_ns = 200'000'000;  // a vehicle that accelerates does so for
-                                                      // longer
-
-std::int64_t to_ns(double duration_s) {
-  return static_cast<std::int64_t>(std::llround(duration_s / 1e-9));
-}
+constexpr std::int64_t kLongestLag_ns = 200'000'000;      // a vehicle that accelerates does so for
+                                                          // longer
 
 /// With the velocity of the step: another scanner's at the same time says nothing about it.
 Step with_velocity(Step step, const OdometryPrediction::LastScan& last) {
@@ -157,29 +151,6 @@ bool OdometryPrediction::tells_of_stamps(std::int64_t stamp_ns) const {
   const std::int64_t from_ns = state_.last->stamp_ns;
   return !have_jumped_lately() && stamp_ns - from_ns <= kLongestLag_ns &&
          odometry_.is_dense(from_ns - kLongestLag_ns, stamp_ns, kLongestLag_ns);
-}
-
-/// Learns the stamps' offset beside the estimate, which takes it over once it is certain.
-void OdometryPrediction::learn_stamp_offset(const Step& step, const ScanMatch& match) {
-  if (config_.motion.stamp_offset_prior_s == 0.0 || state_.applies_stamp_offset) return;
-  sensing::MotionEstimate& watched = state_.with_stamp_offset;
-  const double offset_s = sensing::stamp_offset_s(watched);
-  const bool tells = step.explanation == sensing::StepExplanation::kWheels && step.is_by_wheels() &&
-                     !step.is_standing && match.is_believed && !match.was_sampled &&
-                     !match.is_lost && tells_of_stamps(step.stamp_ns);
-  const auto by_wheels = tells ? wheel_step(step.stamp_ns, to_ns(offset_s)) : std::nullopt;
-  if (!by_wheels) {
-    watched = sensing::put_at(watched, state_.estimate.uncertain_pose());
-    return;
-  }
-  const sensing::MotionEstimate predicted = sensing::moved_by_wheels(
-      watched, {*by_wheels, step.duration_s, step_by_stamp_offset(step.stamp_ns, offset_s)},
-      config_.motion);
-  watched = sensing::matched(predicted, sensing::matched_from(predicted.uncertain_pose(),
-                                                              step.prior(), match.odom_from_base));
-  if (std::abs(stamp_offset_s()) < kCertainSigmas * stamp_offset_sigma_s()) return;
-  state_.estimate = watched;
-  state_.applies_stamp_offset = true;
 }
 
 sensing::MotionEstimate OdometryPrediction::moved_by_wheels(const Pose2& by_wheels,

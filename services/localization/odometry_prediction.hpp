@@ -17,6 +17,10 @@
 
 namespace slammot::localization {
 
+inline std::int64_t to_ns(double duration_s) {
+  return static_cast<std::int64_t>(std::llround(duration_s / 1e-9));
+}
+
 /// What a step was predicted by.
 enum class StepSource {
   kOdometry,          ///< Wheels, corrected by their calibration, or known to stand.

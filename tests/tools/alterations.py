@@ -73,6 +73,7 @@ def scan_stamps_noisy(drive, sigma_s, seed):
 def scan_stamps_of_batches(drive, size, between_s=0.0002):
     """Scans come so many at a time and are stamped as they come, right after one another. Stamps of ODOM lines are as they were."""
     scans = drive.scans()
+    places = {id(scan): place for place, scan in enumerate(scans)}
 
     def late(record):
         if not isinstance(record, Scan):
@@ -81,7 +82,6 @@ def scan_stamps_of_batches(drive, size, between_s=0.0002):
         last = scans[min(place // size * size + size, len(scans)) - 1]
         stamp = f"{stamp_of(last) + between_s * (place % size):.6f}"
         return with_stamps(record, stamp, stamp)
-    places = {id(scan): place for place, scan in enumerate(scans)}
     return drive.replaced(late)
 
 

@@ -1,7 +1,6 @@
 #include "common/sensing/steady_stamps.hpp"
 
 #include <cmath>
-#include <functional>
 #include <random>
 #include <vector>
 
