@@ -1,11 +1,13 @@
 #include "services/map_store/map_store_service.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <CLI/CLI.hpp>
 
 #include "common/app/log.hpp"
 #include "common/wire/text.hpp"
+#include "common/wire/tracked_objects.hpp"
 #include "services/map_store/map_store_fields.hpp"
 
 namespace slammot::map_store {
@@ -59,14 +61,23 @@ MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& s
       stored_objects_(context.write(dds::topics::kStoredTrackedObjects)),
       stored_map_(context.write(dds::topics::kStoredMap)) {
   read_stored();
+  stored_objects_.write(wire::TrackedObjectsEncoder().encode(context.vehicle_id(), {}));
   context.read(dds::topics::kSubmapTile, app::Input::kOccasional,
                [this](const auto& tile) { take(tile); });
-  // Relays the last tracks: a tracking service that restarts after a crash restores them from here.
   context.read(dds::topics::kTrackedObjects, app::Input::kOccasional,
-               [this](const slammot_TrackedObjects& objects) { stored_objects_.write(objects); });
+               [this](const slammot_TrackedObjects& objects) { relay(objects); });
   context.every(std::chrono::nanoseconds(static_cast<std::int64_t>(config_.retry_after_s * 1e9)),
                 [this] { retry(); });
   context.every(kAdvancePeriod, [this] { stored_submaps_.advance(); });
+}
+
+/// A tracking service that restarts after a crash restores the last tracks from here; until there
+/// are some, it is told that there are none.
+void MapStoreService::relay(const slammot_TrackedObjects& objects) {
+  constexpr std::int64_t kPeriodNs = 100'000'000;  // by the data's clock
+  if (relayed_ns_ && std::abs(objects.stamp_ns - *relayed_ns_) < kPeriodNs) return;
+  relayed_ns_ = objects.stamp_ns;
+  stored_objects_.write(objects);
 }
 
 void MapStoreService::take(const slammot_SubmapTile& tile) {

@@ -38,6 +38,7 @@ class MapStoreService {
   MapStoreService(app::ServiceContext& context, const Settings& settings);
 
  private:
+  void relay(const slammot_TrackedObjects& objects);
   void take(const slammot_SubmapTile& tile);
   bool store(const flow::Submap& submap);
   void defer(flow::Submap submap);
@@ -54,6 +55,7 @@ class MapStoreService {
   wire::SubmapAssembler assembler_;
   StoredSubmaps stored_submaps_;
   dds::Writer<slammot_TrackedObjects>& stored_objects_;
+  std::optional<std::int64_t> relayed_ns_;  ///< Stamp of the last objects in it.
   dds::Writer<slammot_StoredMap>& stored_map_;
   std::deque<flow::Submap> unwritten_;
   std::set<flow::SubmapId> readable_;

@@ -75,7 +75,8 @@ void TrackingService::take_stored(const slammot_TrackedObjects& sample) {
   auto objects = wire::decode(sample);
   if (!objects)
     return context_.warn("faulty_tracks", "dropped stored tracks: " + std::string(objects.fault()));
-  if (!stored_ || objects->stamp_ns > stored_->stamp_ns) stored_ = std::move(*objects);
+  const bool is_newest = !stored_ || objects->stamp_ns > stored_->stamp_ns;
+  if (!objects->objects.empty() && is_newest) stored_ = std::move(*objects);
   context_.after(0s, [this] { begin(); });  // after all that were kept have been taken
 }
 

@@ -177,6 +177,17 @@ TEST_F(MapStoreOnTheBus, RelaysTheLastTracksToALateTrackingService) {
   }));
 }
 
+TEST_F(MapStoreOnTheBus, TellsATrackingServiceThatNoTracksAreStored) {
+  start<MapStoreService>("map_store");
+  dds::Reader<slammot_TrackedObjects> reader(neighbour_, dds::topics::kStoredTrackedObjects);
+  bool is_told = false;
+  EXPECT_TRUE(comes_to([&] {
+    reader.take_each(
+        [&](const slammot_TrackedObjects& none) { is_told = none.objects._length == 0; });
+    return is_told;
+  }));
+}
+
 TEST_F(MapStoreOnTheBus, CannotStartWithoutItsDatabase) {
   MapStoreService::Settings settings;
   settings.database = "/proc/no/map.sqlite";
