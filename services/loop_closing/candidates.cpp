@@ -96,6 +96,7 @@ std::vector<RevisitCandidate> expected_candidates(const SubmapView& submaps, con
   std::vector<Candidate> all;
   for (const auto& [id, source_from_target] : submaps.graph.expectations_from(source.id)) {
     const Place& target = submaps.places.at(id);
+    if (target.is_superseded) continue;
     if (source.travelled_before_m - target.travelled_after_m < config.min_travel_between_m)
       continue;
     const double distance_m = (source_from_target.pose * target.centre_m - source.centre_m).norm();
@@ -113,7 +114,7 @@ std::vector<RevisitCandidate> candidates_elsewhere(const SubmapView& submaps, co
   const Vector2 source_in_map_m = graph.map_from_node(source.id) * source.centre_m;
   std::vector<Candidate> all;
   for (const auto& [id, target] : submaps.places) {
-    if (graph.are_on_one_island(id, source.id) ||
+    if (target.is_superseded || graph.are_on_one_island(id, source.id) ||
         are_apart_by_gnss(target, source, submaps.config.max_distance_m))
       continue;
     all.push_back({id, unknown_pose_on(target, source, submaps.config.max_distance_m),

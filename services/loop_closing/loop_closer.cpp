@@ -5,6 +5,7 @@
 
 #include "services/loop_closing/contradictions.hpp"
 #include "services/loop_closing/submap_odometry.hpp"
+#include "services/loop_closing/superseded_place.hpp"
 #include "services/loop_closing/support.hpp"
 
 namespace slammot::loop_closing {
@@ -42,7 +43,18 @@ flow::GraphCorrection LoopCloser::add(const flow::Submap& submap) {
   begin_searches(source);
   for (const SearchQueue::Finished& search : searches_.advance()) take(search);
   close_supported();
+  supersede_places_around(source);
   return correction();
+}
+
+/// So that memory does not grow where the vehicle drives the same streets again and again. Pending
+/// searches refer to places.
+void LoopCloser::supersede_places_around(const Place& newest) {
+  if (!searches_.is_empty()) return;
+  while (const auto superseded = superseded_place(submaps(), newest)) {
+    supersede(places_.at(*superseded));
+    ++counters_.superseded;
+  }
 }
 
 flow::GraphCorrection LoopCloser::finish() {

@@ -53,6 +53,7 @@ class LoopCloser {
   SubmapView submaps() const { return {config_, places_, graph_}; }
 
  private:
+  void supersede_places_around(const Place& newest);
   void extend_graph(const flow::Submap& submap);
   void begin_expected_searches(const Place& source);
   void begin_searches(const Place& source);

@@ -23,6 +23,7 @@ struct LoopClosingCounters {
   std::uint64_t contradictions = 0;  ///< Submaps whose walls disagree with the map at the pose that
                                      ///< the graph gives them.
   std::uint64_t found_elsewhere = 0;  ///< Closures that joined two islands.
+  std::uint64_t superseded = 0;  ///< Submaps that are no target any more: others show the same.
   std::uint64_t optimisations = 0;
 };
 
@@ -42,6 +43,7 @@ inline std::map<std::string, std::uint64_t> named(const LoopClosingCounters& cou
           {"came_back", counters.came_back},
           {"contradictions", counters.contradictions},
           {"found_elsewhere", counters.found_elsewhere},
+          {"superseded", counters.superseded},
           {"optimisations", counters.optimisations}};
 }
 

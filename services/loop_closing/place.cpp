@@ -121,6 +121,12 @@ Place make_place(const flow::Submap& submap, double travelled_before_m, const Pl
   return place;
 }
 
+void supersede(Place& place) {
+  place.is_superseded = true;
+  place.surfels = {};
+  place.cells = {};
+}
+
 std::vector<flow::Surfel> surfels_in_target(const Target& target) {
   std::vector<flow::Surfel> surfels;
   for (const Target::Member& member : target.members) {

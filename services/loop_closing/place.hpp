@@ -26,7 +26,9 @@ struct Place {
   double cell_size_m = 0.0;
   double min_x_m = 0.0;
   double min_y_m = 0.0;
-  CellStates cells;  ///< Occupied cells are dilated by the tolerance.
+  CellStates cells;            ///< Occupied cells are dilated by the tolerance.
+  bool is_superseded = false;  ///< Later places show the same: no target, without surfels and
+                               ///< cells.
 
   CellState state_at(const geometry::Vector2& point_in_submap_m) const;
 };
@@ -48,6 +50,9 @@ struct Target {
   };
   std::vector<Member> members;  ///< The first member is the target itself, at identity.
 };
+
+/// Frees the memory of a place that is no target any more.
+void supersede(Place& place);
 
 /// Surfels of all members, in the target's frame.
 std::vector<flow::Surfel> surfels_in_target(const Target& target);

@@ -77,6 +77,27 @@ TEST(LoopCloser, ReturnsThePosesOfAllSubmapsAfterEachOne) {
   }
 }
 
+TEST(LoopCloser, KeepsAFewPlacesWhereTheVehicleDrivesTheSameWayAgainAndAgain) {
+  const auto way = way_around_the_ring(20.0);
+  const auto submaps = drive(ring(), way, 0.0005);
+  LoopCloser closer(indoor_loop_closing());
+  std::vector<std::size_t> kept;
+  std::vector<std::uint64_t> closures;
+  for (const Submap& submap : submaps) {
+    closer.add(submap);
+    kept.push_back(0);
+    for (const auto& [id, place] : closer.submaps().places)
+      kept.back() += place.is_superseded ? 0 : 1;
+    closures.push_back(closer.counters().closures);
+  }
+  const std::size_t then = submaps.size() * 2 / 3;
+  EXPECT_LE(kept.back(), kept[then] + 2) << "of " << submaps.size();
+  EXPECT_LT(kept.back(), submaps.size() * 3 / 4);
+  EXPECT_GT(closures.back(), closures[then] + submaps.size() / 6)
+      << "they suffice to find it again";
+  EXPECT_LT(largest_error_m(closer.finish(), way), 0.3);
+}
+
 TEST(LoopCloser, IgnoresARepeatedSubmap) {
   const auto submaps = drive(ring(), way_around_the_ring(0.4), 0.0);
   LoopCloser closer(indoor_loop_closing());
