@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/files/log_formats.hpp"
+#include "common/files/sorted_records.hpp"
 
 namespace slammot::files {
 namespace {
@@ -113,43 +114,63 @@ std::string CarmenLog::scanner_id_of(std::string_view scanner) {
 Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path,
                                   const CarmenLogOptions& options) {
   const RecordOptions record_options{options.topics, options.most_kept_bytes};
-  auto opened = open_records(path, record_options);
-  if (!opened) return opened.error();
-  std::unique_ptr<RecordSource> first_pass = std::move(*opened);
-  CarmenSurvey survey;
-  std::deque<ReadRecord> records;
-  std::size_t bytes = 0;
-  std::uint64_t malformed_lines = 0;
-  while (auto record = first_pass->next()) {
-    malformed_lines += std::holds_alternative<MalformedLine>(*record) ? 1 : 0;
-    survey.add(*record);
-    bytes += bytes_of(*record);
-    if (bytes <= options.most_kept_bytes)
-      records.push_back({to_keep(std::move(*record)), first_pass->line_number(),
-                         first_pass->overlong_lines(), first_pass->fraction_read()});
-    else records.clear();
-  }
-  const bool has_topics = !first_pass->topics().scanners.empty();  // topics are already selected
+  std::optional<LogClock> sorted_by;
+  const auto open_in_order = [&]() -> Result<std::unique_ptr<RecordSource>> {
+    auto opened = open_records(path, record_options);
+    if (!opened || !sorted_by) return opened;
+    return std::unique_ptr<RecordSource>(
+        std::make_unique<SortedRecords>(std::move(*opened), *sorted_by));
+  };
+  auto first_pass = read_once(open_in_order, options.most_kept_bytes);
+  if (!first_pass) return first_pass.error();
+  sorted_by = first_pass->survey.clock_of_disordered_scans();
+  if (sorted_by) first_pass = read_once(open_in_order, options.most_kept_bytes);
+  if (!first_pass) return first_pass.error();
+  RecordSource& read = *first_pass->records;
+  const CarmenSurvey& survey = first_pass->survey;
+  const bool has_topics = !read.topics().scanners.empty();  // topics are already selected
   const ScannerWish wish{has_topics ? std::string() : options.topics.scan_topic,
                          options.topics.scanners, options.topics.vertical};
   if (auto fault = find_fault(wish, survey)) return Error{path.string() + ": " + fault->message};
   std::vector<ScannerPlan> scanners = survey.scanners(wish);
-  if (scanners.empty()) return no_scans(path, *first_pass, malformed_lines);
+  if (scanners.empty()) return no_scans(path, read, first_pass->malformed_lines);
   if (!wish.main.empty() && !survey.has_scanner(wish.main))
     return Error{path.string() + ": no scanner " + wish.main + " in the log: its main one is " +
                  scanners.front().name};
   if (auto fault = select_scanners(wish.used, scanners))
     return Error{path.string() + ": " + fault->message};
-  const LogPlan plan = survey.conclude(options.fallback_field_of_view_rad, wish);
-  if (bytes <= options.most_kept_bytes) {
-    CarmenLog log(std::move(first_pass), plan, options);
-    log.kept_ = std::move(records);
+  LogPlan plan = survey.conclude(options.fallback_field_of_view_rad, wish);
+  plan.scans_are_sorted = sorted_by.has_value();
+  if (first_pass->has_kept_all) {
+    CarmenLog log(std::move(first_pass->records), plan, options);
+    log.kept_ = std::move(first_pass->kept);
     log.all_is_kept_ = true;
     return log;
   }
-  auto second_pass = open_records(path, record_options);
+  auto second_pass = open_in_order();
   if (!second_pass) return second_pass.error();
   return CarmenLog(std::move(*second_pass), plan, options);
+}
+
+/// Surveys all records; keeps them where they are no more than so many bytes.
+Result<CarmenLog::FirstPass> CarmenLog::read_once(const RecordOpener& open,
+                                                  std::size_t most_kept_bytes) {
+  auto opened = open();
+  if (!opened) return opened.error();
+  FirstPass pass;
+  pass.records = std::move(*opened);
+  std::size_t bytes = 0;
+  while (auto record = pass.records->next()) {
+    pass.malformed_lines += std::holds_alternative<MalformedLine>(*record) ? 1 : 0;
+    pass.survey.add(*record);
+    bytes += bytes_of(*record);
+    pass.has_kept_all = bytes <= most_kept_bytes;
+    if (pass.has_kept_all)
+      pass.kept.push_back({to_keep(std::move(*record)), pass.records->line_number(),
+                           pass.records->overlong_lines(), pass.records->fraction_read()});
+    else pass.kept.clear();
+  }
+  return pass;
 }
 
 CarmenLog CarmenLog::follow(std::unique_ptr<LineSource> lines, LogPlan plan,
@@ -527,7 +548,8 @@ void CarmenLog::put_odometry_until(std::int64_t stamp_ns) {
 void CarmenLog::put_waiting_scans(std::size_t may_wait) {
   while (!waiting_.empty()) {
     const bool has_odometry =
-        !odom_lines_.empty() && odom_lines_.back().stamp_ns >= waiting_.front().stamp_ns;
+        !odom_lines_.empty() && odom_lines_.back().stamp_ns >= waiting_.front().stamp_ns &&
+        (odom_lines_.size() > 1 || !is_long_before_odometry(waiting_.front().stamp_ns));
     if (!has_odometry && waiting_.size() <= may_wait) return;
     sensing::LaserScan scan = std::move(waiting_.front());
     waiting_.pop_front();
@@ -541,14 +563,29 @@ void CarmenLog::put_waiting_scans(std::size_t may_wait) {
   }
 }
 
+bool CarmenLog::is_long_before_odometry(std::int64_t stamp_ns) const {
+  constexpr std::int64_t kLongNs = 50'000'000;
+  return !newest_odometry_ && !odom_lines_.empty() &&
+         odom_lines_.front().stamp_ns - stamp_ns > kLongNs;
+}
+
 /// Interpolates between the last returned line and the first held-back one; uses the nearer one if
-/// only one exists.
+/// only one exists. A vehicle that drives before the first line did so as it does after it.
 std::optional<geometry::Pose2> CarmenLog::wheel_from_base_at(std::int64_t stamp_ns) const {
   const bool is_over = plan_.odometry_late_s != 0.0;  // no pose is known after the last late one
   if (odom_lines_.empty())
     return newest_odometry_ && !is_over ? std::optional(newest_odometry_->wheel_from_base)
                                         : std::nullopt;
   const sensing::Odometry& after = odom_lines_.front();
+  if (is_long_before_odometry(stamp_ns)) {
+    constexpr double kFarthestBack_ns = 3e8;
+    const auto before_ns = static_cast<double>(after.stamp_ns - stamp_ns);
+    if (odom_lines_.size() < 2 || before_ns > kFarthestBack_ns) return std::nullopt;
+    const sensing::Odometry& next = odom_lines_[1];
+    return geometry::interpolate(
+        next.wheel_from_base, after.wheel_from_base,
+        1.0 + before_ns / static_cast<double>(next.stamp_ns - after.stamp_ns));
+  }
   if (!newest_odometry_ || after.stamp_ns <= newest_odometry_->stamp_ns ||
       after.stamp_ns == stamp_ns)
     return after.wheel_from_base;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -122,6 +123,15 @@ class CarmenLog {
     std::uint64_t overlong_lines = 0;  ///< So far,
     double fraction_read = 0.0;        ///< as is this.
   };
+  struct FirstPass {
+    std::unique_ptr<RecordSource> records;  ///< At their end.
+    CarmenSurvey survey;
+    std::deque<ReadRecord> kept;
+    bool has_kept_all = true;
+    std::uint64_t malformed_lines = 0;
+  };
+  using RecordOpener = std::function<Result<std::unique_ptr<RecordSource>>()>;
+  static Result<FirstPass> read_once(const RecordOpener& open, std::size_t most_kept_bytes);
 
   bool read_on();
   void take(LaserRecord record);
@@ -155,6 +165,7 @@ class CarmenLog {
   void put_odometry_until(std::int64_t stamp_ns);
   void put_waiting_scans(std::size_t may_wait);
   void put_scan(sensing::LaserScan scan, const std::optional<geometry::Pose2>& wheel_from_base);
+  bool is_long_before_odometry(std::int64_t stamp_ns) const;
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
 
   /// A scan that waits for older scans of other scanners.

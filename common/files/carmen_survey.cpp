@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/files/pose_difference.hpp"
+#include "common/sensing/steady_stamps.hpp"
 
 namespace slammot::files {
 namespace {
@@ -241,6 +242,7 @@ void CarmenSurvey::add_laser(const LaserRecord& record) {
   lasers.moved_pairs.add(readings, recorded, lasers.poses.size() - 1);
   lasers.pairs_in_small_units.add(readings, recorded, lasers.poses.size() - 1);
   lasers.turned_pairs.add(readings, recorded, lasers.poses.size() - 1);
+  lasers.timing_pairs.add(readings, recorded, lasers.poses.size() - 1);
   lasers.ipc_ns.push_back(record.stamps.ipc_ns);
   lasers.logger_ns.push_back(record.stamps.logger_ns);
   for (std::size_t kind = 0; kind < odometry_lines_.size(); ++kind) {
@@ -264,6 +266,7 @@ void CarmenSurvey::add_odom(const OdometryRecord& record) {
   lines.last_pose = record.wheel_from_base;
   lines.check.add(record.wheel_from_base);
   lines.noise.add(record.wheel_from_base);
+  lines.poses.push_back(record.wheel_from_base);
   lines.ipc_ns.push_back(record.stamps.ipc_ns);
   lines.logger_ns.push_back(record.stamps.logger_ns);
   for (Lasers& lasers : lasers_) ++lasers.lines_between[kind].since_scan;
@@ -446,13 +449,14 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
   choose_clock(lasers, plan);
   plan.odometry_held_scans = lasers.held_poses.most_scans();
   plan.odometry = odometry_source(lasers, plan);
-  plan.odometry_late_s = odometry_lateness_s(lasers, plan);
+  remove_noise_of_odometry_stamps(plan);
+  plan.odometry_late_s =
+      odometry_lateness_s(lasers, plan, assumed_beams(lasers, plan, fallback_field_of_view_rad));
   if (plan.is_timed_by_order())
     plan.odom_lines_before_scan =
         lasers.lines_between[static_cast<std::size_t>(plan.odometry_lines)].before_scan;
   plan.figures = figures(lasers, plan, fallback_field_of_view_rad);
   treat_poor_odometry(lasers, plan);
-  remove_noise_of_odometry_stamps(plan);
   if (lasers.scans == 0) return plan;
   for (const Lasers& scanner : scanners) {
     plan.scanners.push_back(scanner_plan(scanner));
@@ -478,16 +482,9 @@ void CarmenSurvey::convert_readings(Lasers& lasers, double unit_m) {
   }
 }
 
-/// Matches the sampled pairs, without no-echo readings. Odometry is judged by ODOM lines if there
-/// are any, because scan intervals hide the arcs of single steps. Without odometry nothing
-/// contradicts the stated layout.
-matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& plan,
-                                          double fallback_field_of_view_rad) const {
-  const bool has_small_units = are_in_small_units(lasers.moved_pairs.pairs());
-  std::vector<matching::ScanPair> pairs =
-      has_small_units ? lasers.pairs_in_small_units.pairs() : lasers.moved_pairs.pairs();
-  pairs.insert(pairs.end(), lasers.turned_pairs.pairs().begin(), lasers.turned_pairs.pairs().end());
-  if (pairs.empty()) return plan.evidence;
+/// Readings that are no echo, or of the vehicle itself, become NaN.
+std::vector<matching::ScanPair> CarmenSurvey::with_echoes_of_others(
+    const Lasers& lasers, const LogPlan& plan, std::vector<matching::ScanPair> pairs) {
   const double unit_m = plan.evidence.correction.range_unit_m;
   const auto no_echo = static_cast<float>(plan.max_range_m / unit_m);
   const sensing::OwnBody own_body = lasers.own_body.conclude(unit_m);
@@ -500,12 +497,32 @@ matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& p
     leave_out(pair.first);
     leave_out(pair.second);
   }
-  const BeamLayout layout = lasers.layout.value_or(
-      layout_by_convention(pairs.front().first.size(), fallback_field_of_view_rad));
+  return pairs;
+}
+
+matching::AssumedBeams CarmenSurvey::assumed_beams(const Lasers& lasers, const LogPlan& plan,
+                                                   double fallback_field_of_view_rad) {
+  const std::size_t beams =
+      lasers.scans_by_beams.empty() ? 0 : lasers.scans_by_beams.begin()->first;
+  const BeamLayout layout =
+      lasers.layout.value_or(layout_by_convention(beams, fallback_field_of_view_rad));
+  return {layout.first_beam_rad, layout.beam_step_rad, plan.base_from_laser.heading_rad,
+          plan.base_from_laser.translation_m()};
+}
+
+/// Matches the sampled pairs, without no-echo readings. Odometry is judged by ODOM lines if there
+/// are any, because scan intervals hide the arcs of single steps. Without odometry nothing
+/// contradicts the stated layout.
+matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& plan,
+                                          double fallback_field_of_view_rad) const {
+  const bool has_small_units = are_in_small_units(lasers.moved_pairs.pairs());
+  std::vector<matching::ScanPair> pairs =
+      has_small_units ? lasers.pairs_in_small_units.pairs() : lasers.moved_pairs.pairs();
+  pairs.insert(pairs.end(), lasers.turned_pairs.pairs().begin(), lasers.turned_pairs.pairs().end());
+  if (pairs.empty()) return plan.evidence;
+  pairs = with_echoes_of_others(lasers, plan, std::move(pairs));
   return matching::weigh_log(
-      pairs,
-      {layout.first_beam_rad, layout.beam_step_rad, plan.base_from_laser.heading_rad,
-       plan.base_from_laser.translation_m()},
+      pairs, assumed_beams(lasers, plan, fallback_field_of_view_rad),
       chosen_odometry_lines().pose_changes ? chosen_odometry_lines().check : lasers.odometry_check,
       plan.evidence.correction.range_unit_m);
 }
@@ -556,6 +573,25 @@ std::vector<sensing::ScanMark> CarmenSurvey::scan_marks(const Lasers& lasers,
 
 /// Chooses a faultless clock, ipc before logger; otherwise one that can be repaired; otherwise
 /// derives time from the way.
+std::optional<LogClock> CarmenSurvey::clock_of_disordered_scans() const {
+  constexpr double kFewLate = 0.02;
+  for (const Lasers& lasers : lasers_) {
+    for (const LogClock clock : {LogClock::kIpc, LogClock::kLogger}) {
+      std::vector<std::int64_t> stamps_ns;
+      std::size_t late = 0;
+      for (const auto& stamp_ns : clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns) {
+        if (!stamp_ns) continue;
+        late += !stamps_ns.empty() && *stamp_ns < stamps_ns.back() ? 1 : 0;
+        stamps_ns.push_back(*stamp_ns);
+      }
+      if (static_cast<double>(late) > kFewLate * static_cast<double>(stamps_ns.size()) &&
+          sensing::are_regular_in_another_order(stamps_ns))
+        return clock;
+    }
+  }
+  return std::nullopt;
+}
+
 void CarmenSurvey::choose_clock(const Lasers& lasers, LogPlan& plan) const {
   plan.clock = LogClock::kNominal;
   if (lasers.scans == 0) return;

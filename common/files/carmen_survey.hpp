@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "common/files/result.hpp"
 #include "common/files/topic_choice.hpp"
 #include "common/matching/log_evidence.hpp"
+#include "common/matching/timing_pairs.hpp"
 #include "common/sensing/companions.hpp"
 #include "common/sensing/odometry_sampling.hpp"
 #include "common/sensing/own_body.hpp"
@@ -125,6 +127,7 @@ struct LogPlan {
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;  ///< Readings at or beyond it are "no echo"; a scan's own record may
                              ///< have a lower limit.
+  bool scans_are_sorted = false;     ///< They were logged in another order.
   bool first_scan_is_ahead = false;  ///< The next two scans have consistent stamps far before the
                                      ///< first one's.
   LogFigures figures;
@@ -151,6 +154,10 @@ class CarmenSurvey {
   /// Those that scan a vertical profile.
   std::vector<ScannerPlan> profile_scanners(const ScannerWish& wish = {}) const;
   bool has_scanner(const std::string& name) const;
+
+  /// The clock by which the scans of a steady scanner were logged in another order than they were
+  /// taken in (SortedRecords). A few scans that come late are left to localization.
+  std::optional<LogClock> clock_of_disordered_scans() const;
 
  private:
   struct StampedPose {
@@ -259,6 +266,7 @@ class CarmenSurvey {
     PairSample pairs_in_small_units{
         250.0, 0.12, std::numeric_limits<double>::infinity()};  // of odometry in millimetres
     PairSample turned_pairs{1.2, 0.05, 1.2};                    // of a vehicle that seldom turns
+    matching::TimingPairs timing_pairs;
   };
 
   void add_laser(const LaserRecord& record);
@@ -284,6 +292,7 @@ class CarmenSurvey {
     bool pose_changes = false;
     matching::OdometryCheck check;
     sensing::PoseNoise noise;
+    std::vector<geometry::Pose2> poses;
     std::vector<std::optional<std::int64_t>> ipc_ns;
     std::vector<std::optional<std::int64_t>> logger_ns;
   };
@@ -299,7 +308,20 @@ class CarmenSurvey {
   ScannerPlan scanner_plan(const Lasers& lasers) const;
   double max_range_m(const Lasers& lasers) const;
   static void convert_readings(Lasers& lasers, double unit_m);
-  double odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const;
+  std::vector<StampedPose> odometry_of_lines(const LogPlan& plan) const;
+  static std::vector<StampedPose> odometry_of_scans(const Lasers& lasers, const LogPlan& plan,
+                                                    std::span<const std::int64_t> stamps_ns);
+  double odometry_lateness_s(const Lasers& lasers, const LogPlan& plan,
+                             const matching::AssumedBeams& beams) const;
+  static double fine_odometry_lateness_s(const Lasers& lasers, const LogPlan& plan,
+                                         const matching::AssumedBeams& beams,
+                                         std::span<const double> scan_times_s,
+                                         std::span<const matching::TimedPose> of_base,
+                                         double roughly_s);
+  static std::vector<matching::ScanPair> with_echoes_of_others(
+      const Lasers& lasers, const LogPlan& plan, std::vector<matching::ScanPair> pairs);
+  static matching::AssumedBeams assumed_beams(const Lasers& lasers, const LogPlan& plan,
+                                              double fallback_field_of_view_rad);
   void treat_poor_odometry(const Lasers& lasers, LogPlan& plan) const;
   void remove_noise_of_odometry_stamps(LogPlan& plan) const;
   matching::LogEvidence weigh(const Lasers& lasers, const LogPlan& plan,

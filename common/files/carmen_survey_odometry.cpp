@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "common/files/carmen_survey.hpp"
 #include "common/files/pose_difference.hpp"
+#include "common/matching/odometry_timing.hpp"
 #include "common/sensing/steady_stamps.hpp"
 
 namespace slammot::files {
@@ -41,30 +43,99 @@ bool CarmenSurvey::AgreementCheck::agrees() const {
   return compared_ > 0 && static_cast<double>(met_) >= kMetShare * static_cast<double>(compared_);
 }
 
-/// By the poses of the scans, if both have the same clock.
-double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& plan) const {
-  const bool has_clock =
-      plan.clock != LogClock::kNominal && !plan.is_timed_by_order() && !plan.first_scan_is_ahead;
-  const bool is_in_scans =
-      plan.odometry == OdometrySource::kLaserRecords || plan.odometry == OdometrySource::kBoth;
-  if (!has_clock || !is_in_scans) return 0.0;
-  const std::vector<std::optional<std::int64_t>>& stamps_ns =
-      plan.clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns;
-  if (!std::ranges::all_of(stamps_ns, [](const auto& stamp_ns) { return stamp_ns.has_value(); }))
-    return 0.0;
-  const auto stamp_ns = [&](std::size_t i) {
-    return plan.times.stamps_ns.empty() ? *stamps_ns[i] : plan.times.stamps_ns[i];
-  };
-  std::vector<matching::TimedPose> odometry;
+std::vector<CarmenSurvey::StampedPose> CarmenSurvey::odometry_of_scans(
+    const Lasers& lasers, const LogPlan& plan, std::span<const std::int64_t> stamps_ns) {
+  std::vector<StampedPose> odometry;
   for (std::size_t i = 0; i < lasers.poses.size(); ++i) {
     const bool is_held = plan.odometry_held_scans > 0 && i > 0 &&
                          lasers.poses[i].wheel_from_base == lasers.poses[i - 1].wheel_from_base;
-    if (is_held) continue;
-    odometry.push_back({static_cast<double>(stamp_ns(i) - stamp_ns(0)) * 1e-9,
-                        corrected(plan.evidence.correction, lasers.poses[i].wheel_from_base)});
+    if (!is_held) odometry.push_back({stamps_ns[i], lasers.poses[i].wheel_from_base});
   }
-  return matching::odometry_lateness_s(plan.evidence.motions, odometry,
-                                       {plan.evidence.way_scale, plan.evidence.turn_scale});
+  return odometry;
+}
+
+/// In the order of their stamps; those that are older than one before are left out.
+std::vector<CarmenSurvey::StampedPose> CarmenSurvey::odometry_of_lines(const LogPlan& plan) const {
+  const OdometryLines& lines = chosen_odometry_lines();
+  const auto& recorded_ns = plan.clock == LogClock::kIpc ? lines.ipc_ns : lines.logger_ns;
+  std::vector<StampedPose> odometry;
+  for (std::size_t i = 0; i < lines.poses.size(); ++i) {
+    const auto stamp_ns = plan.odometry_stamps_ns.empty()
+                              ? recorded_ns[i]
+                              : std::optional(plan.odometry_stamps_ns[i]);
+    if (stamp_ns && (odometry.empty() || *stamp_ns > odometry.back().stamp_ns))
+      odometry.push_back({*stamp_ns, lines.poses[i]});
+  }
+  return odometry;
+}
+
+/// Of odometry that has the clock of the scans.
+double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& plan,
+                                         const matching::AssumedBeams& beams) const {
+  const bool has_clock =
+      plan.clock != LogClock::kNominal && !plan.is_timed_by_order() && !plan.first_scan_is_ahead;
+  if (!has_clock || plan.odometry == OdometrySource::kNone) return 0.0;
+  std::vector<std::int64_t> stamps_ns = plan.times.stamps_ns;
+  if (stamps_ns.empty()) {
+    for (const auto& stamp_ns : plan.clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns) {
+      if (!stamp_ns) return 0.0;
+      stamps_ns.push_back(*stamp_ns);
+    }
+  }
+  const std::vector<StampedPose> recorded = plan.odometry == OdometrySource::kOdomLines
+                                                ? odometry_of_lines(plan)
+                                                : odometry_of_scans(lasers, plan, stamps_ns);
+  const auto time_s = [&](std::int64_t stamp_ns) {
+    return static_cast<double>(stamp_ns - stamps_ns.front()) * 1e-9;
+  };
+  const matching::LogCorrection& correction = plan.evidence.correction;
+  std::vector<double> scan_times_s;
+  for (const std::int64_t stamp_ns : stamps_ns) scan_times_s.push_back(time_s(stamp_ns));
+  std::vector<matching::TimedPose> odometry;
+  std::vector<matching::TimedPose> of_base;
+  matching::PoseCorrection in_order;
+  for (const auto& [stamp_ns, wheel_from_base] : recorded) {
+    odometry.push_back({time_s(stamp_ns), corrected(correction, wheel_from_base)});
+    of_base.push_back({time_s(stamp_ns), in_order.next(correction, wheel_from_base)});
+  }
+  const double roughly_s =
+      matching::odometry_lateness_s(plan.evidence.motions, scan_times_s, odometry,
+                                    {plan.evidence.way_scale, plan.evidence.turn_scale});
+  return fine_odometry_lateness_s(lasers, plan, beams, scan_times_s, of_base, roughly_s);
+}
+
+/// Of a scanner that sweeps, odometry seems late by half of the sweep: the scan is stamped at its
+/// first beam. Whether it sweeps is not known yet.
+double CarmenSurvey::fine_odometry_lateness_s(const Lasers& lasers, const LogPlan& plan,
+                                              const matching::AssumedBeams& beams,
+                                              std::span<const double> scan_times_s,
+                                              std::span<const matching::TimedPose> of_base,
+                                              double roughly_s) {
+  constexpr double kLeast_s = 0.012;  // less is estimated during the drive
+  constexpr double kSigmas = 5.0;
+  constexpr double kMostSigma_s = 0.02;
+  constexpr double kSlowestTurn_s = 0.2;  // of a scanner
+  constexpr double kDense_s = 0.06;       // time between samples, in which a car turns evenly
+  const matching::LogCorrection& correction = plan.evidence.correction;
+  const bool is_as_stated = correction.way_unit_m == 1.0 && correction.heading_unit_rad == 1.0 &&
+                            !correction.reverses_beams && correction.field_factor == 1.0;
+  const bool is_dense = of_base.size() > 1 && of_base.back().time_s - of_base.front().time_s <
+                                                  kDense_s * static_cast<double>(of_base.size());
+  if (!is_as_stated || !is_dense || scan_times_s.size() < 2) return roughly_s;
+  const std::vector<matching::ScanPair> pairs =
+      with_echoes_of_others(lasers, plan, lasers.timing_pairs.pairs());
+  const auto found = matching::odometry_timing(pairs, beams, correction.range_unit_m, scan_times_s,
+                                               of_base, roughly_s);
+  if (!found || found->sigma_s > kMostSigma_s) return roughly_s;
+  const double swept_rad = std::abs(beams.beam_step_rad) *
+                           static_cast<double>(pairs.empty() ? 0 : pairs.front().first.size());
+  const double period_s =
+      (scan_times_s.back() - scan_times_s.front()) / static_cast<double>(scan_times_s.size());
+  const double half_sweep_s =
+      0.5 * swept_rad / (2.0 * std::numbers::pi) * std::min(period_s, kSlowestTurn_s);
+  const double late_s = found->late_s - 0.5 * half_sweep_s;  // swept or not
+  const double least_s = 0.5 * half_sweep_s + std::max(kLeast_s, kSigmas * found->sigma_s);
+  return roughly_s != 0.0 || std::abs(late_s) > least_s ? late_s : 0.0;
 }
 
 /// Noisy odometry looks like slip, and between samples that come seldom a car brakes and turns.
@@ -98,6 +169,8 @@ void CarmenSurvey::treat_poor_odometry(const Lasers& lasers, LogPlan& plan) cons
     plan.odometry = OdometrySource::kNone;
     plan.odometry_late_s = 0.0;
     plan.odometry_held_scans = 0;
+    plan.odometry_stamps_ns.clear();
+    plan.odometry_stamp_noise_s = 0.0;
   } else if (is_noisy) {
     plan.odometry_smoothed_over = static_cast<std::size_t>(std::ceil(0.5 * kWindow_s / period_s));
     if (plan.odometry == OdometrySource::kBoth) plan.odometry = OdometrySource::kLaserRecords;

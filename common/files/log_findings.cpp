@@ -106,8 +106,11 @@ void describe_own_bodies(const LogPlan& plan, std::vector<std::string>& findings
   }
 }
 
-void describe_gaps(const LogFigures& figures, std::vector<std::string>& findings) {
+void describe_gaps(const LogPlan& plan, std::vector<std::string>& findings) {
   constexpr double kLongGap = 10.0;  // periods
+  const LogFigures& figures = plan.figures;
+  if (plan.scans_are_sorted)
+    findings.emplace_back("scans are logged in another order than they were taken in: sorted");
   if (figures.scans_without_readings > 0) {
     findings.push_back(text("%llu of %llu scans hold no reading at all (NaN, infinity or 0)",
                             static_cast<unsigned long long>(figures.scans_without_readings),
@@ -263,7 +266,7 @@ std::vector<std::string> describe_findings(const LogPlan& plan) {
   describe_units(plan.evidence.correction, findings);
   describe_signs(plan, findings);
   describe_own_bodies(plan, findings);
-  describe_gaps(plan.figures, findings);
+  describe_gaps(plan, findings);
   describe_doubts(plan, findings);
   for (const std::string& name : plan.unplaced_scanners)
     findings.push_back(

@@ -7,9 +7,9 @@
 
 #include <Eigen/LU>
 
-#include "common/grids/surfel_map.hpp"
 #include "common/matching/correlative.hpp"
 #include "common/matching/odometry_point.hpp"
+#include "common/matching/pair_registration.hpp"
 #include "common/matching/point_to_line.hpp"
 #include "common/matching/wall_bend.hpp"
 
@@ -34,21 +34,6 @@ double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-std::vector<Eigen::Vector2f> points_of(const std::vector<float>& ranges, const AssumedBeams& beams,
-                                       double unit_m, std::size_t most) {
-  constexpr float kFarthestM = 30.0F;  // limits the size of the grid
-  std::vector<Eigen::Vector2f> points;
-  const std::size_t stride = std::max<std::size_t>(1, ranges.size() / most);
-  for (std::size_t i = 0; i < ranges.size(); i += stride) {
-    const float range_m = ranges[i] * static_cast<float>(unit_m);
-    if (!(range_m > 0.05F && range_m < kFarthestM)) continue;
-    const auto angle_rad =
-        static_cast<float>(beams.first_beam_rad + static_cast<double>(i) * beams.beam_step_rad);
-    points.emplace_back(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
-  }
-  return points;
 }
 
 /// A pair of scans with its motion by odometry and by scans.
@@ -241,26 +226,11 @@ std::complex<double> mounting(const std::vector<MatchedPair>& straight_pairs) {
 /// than a cell of the search.
 Pose2 registered(PointToLineMatcher& matcher, const ScanPair& pair, const AssumedBeams& beams,
                  double unit_m, const Pose2& by_scans) {
-  constexpr std::size_t kAllPoints = 2000;
-  constexpr double kCell_m = 0.5;
-  constexpr double kReach_m = 64.0;  // of all points
-  constexpr double kManyEchoes = 1000.0;
   constexpr double kSigma_m = 0.1;
   constexpr double kSigma_rad = 0.02;
-  grids::SurfelMap surfels(grids::window_around(geometry::Vector2::Zero(), kReach_m, kCell_m),
-                           kManyEchoes);
-  for (const Eigen::Vector2f& point : points_of(pair.first, beams, unit_m, kAllPoints))
-    surfels.add(point.cast<double>());
-  std::vector<MatchPoint> points;
-  for (const Eigen::Vector2f& point : points_of(pair.second, beams, unit_m, kAllPoints))
-    points.push_back({point.cast<double>()});
-  PointToLineConfig config;
-  config.unproven_share = 1.0;
-  config.proven_after_m = 0.0;
-  config.information_share = 1.0;
   const geometry::UncertainPose2 prior{
       by_scans, Eigen::Vector3d(kSigma_m, kSigma_m, kSigma_rad).cwiseAbs2().asDiagonal()};
-  return matcher.match(points, surfels, prior, by_scans, config).map_from_base.pose;
+  return register_pair(matcher, pair, beams, unit_m, prior).map_from_base.pose;
 }
 
 std::optional<OdometryPoint> odometry_point(std::span<const ScanPair> pairs,

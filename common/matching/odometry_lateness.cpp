@@ -34,12 +34,16 @@ std::optional<Pose2> pose_at(std::span<const TimedPose> odometry, double time_s)
                                span_s > 0.0 ? (time_s - before.time_s) / span_s : 1.0);
 }
 
-std::optional<Pose2> motion_at(const ScanPairMotion& pair, std::span<const TimedPose> odometry,
+/// A pair of scans, with the times of both.
+struct TimedPair {
+  ScanPairMotion motion;
+  double first_s = 0.0;
+  double second_s = 0.0;
+};
+
+std::optional<Pose2> motion_at(const TimedPair& pair, std::span<const TimedPose> odometry,
                                double delay_s) {
-  const auto first = pose_at(odometry, odometry[pair.first_scan].time_s + delay_s);
-  const auto second = pose_at(odometry, odometry[pair.second_scan].time_s + delay_s);
-  if (!first || !second) return std::nullopt;
-  return geometry::inverse(*first) * *second;
+  return motion_between(odometry, pair.first_s + delay_s, pair.second_s + delay_s);
 }
 
 double squared_error(const ScanPairMotion& pair, const Pose2& by_odometry,
@@ -62,11 +66,13 @@ double turn_scale_beside_delays(double turn_scale) {
 }
 
 /// Pairs that odometry covers at every delay.
-std::vector<ScanPairMotion> covered(std::span<const ScanPairMotion> pairs,
-                                    std::span<const TimedPose> odometry) {
-  std::vector<ScanPairMotion> some;
-  for (const ScanPairMotion& pair : pairs) {
-    if (pair.second_scan >= odometry.size()) continue;
+std::vector<TimedPair> covered(std::span<const ScanPairMotion> pairs,
+                               std::span<const double> scan_times_s,
+                               std::span<const TimedPose> odometry) {
+  std::vector<TimedPair> some;
+  for (const ScanPairMotion& motion : pairs) {
+    if (motion.second_scan >= scan_times_s.size()) continue;
+    const TimedPair pair{motion, scan_times_s[motion.first_scan], scan_times_s[motion.second_scan]};
     if (motion_at(pair, odometry, -kFarthest_s) && motion_at(pair, odometry, kFarthest_s))
       some.push_back(pair);
   }
@@ -75,16 +81,25 @@ std::vector<ScanPairMotion> covered(std::span<const ScanPairMotion> pairs,
 
 }  // namespace
 
+std::optional<Pose2> motion_between(std::span<const TimedPose> odometry, double first_s,
+                                    double second_s) {
+  const auto first = pose_at(odometry, first_s);
+  const auto second = pose_at(odometry, second_s);
+  if (!first || !second) return std::nullopt;
+  return geometry::inverse(*first) * *second;
+}
+
 double odometry_lateness_s(std::span<const ScanPairMotion> pairs,
+                           std::span<const double> scan_times_s,
                            std::span<const TimedPose> odometry, const MotionScale& measured) {
-  const std::vector<ScanPairMotion> compared = covered(pairs, odometry);
+  const std::vector<TimedPair> compared = covered(pairs, scan_times_s, odometry);
   if (compared.size() < kFewestCompared || !(measured.way > 0.0)) return 0.0;
   const MotionScale scale{measured.way, turn_scale_beside_delays(measured.turn)};
   std::vector<double> errors;
   for (int step = -kSteps; step <= kSteps; ++step) {
     double sum = 0.0;
-    for (const ScanPairMotion& pair : compared)
-      sum += squared_error(pair, *motion_at(pair, odometry, step * kStep_s), scale);
+    for (const TimedPair& pair : compared)
+      sum += squared_error(pair.motion, *motion_at(pair, odometry, step * kStep_s), scale);
     errors.push_back(sum);
   }
   const auto best = std::ranges::min_element(errors) - errors.begin();

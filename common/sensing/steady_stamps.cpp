@@ -99,8 +99,6 @@ bool are_mostly_regular(const std::vector<double>& steps_s, double period_s) {
   return static_cast<double>(regular) > kRegularShare * static_cast<double>(steps_s.size());
 }
 
-/// True for scans that were logged in another order than they were taken in: their stamps are
-/// right.
 bool are_regular_in_another_order(std::span<const std::int64_t> stamps_ns, double period_s) {
   if (std::ranges::is_sorted(stamps_ns)) return false;
   std::vector<std::int64_t> in_order(stamps_ns.begin(), stamps_ns.end());
@@ -128,6 +126,12 @@ std::vector<double> smoothed(const std::vector<double>& offsets_s, double noise_
 }
 
 }  // namespace
+
+bool are_regular_in_another_order(std::span<const std::int64_t> stamps_ns) {
+  if (stamps_ns.size() < kFewestScans) return false;
+  const double period_s = period_of(stamps_ns);
+  return period_s > 0.0 && are_regular_in_another_order(stamps_ns, period_s);
+}
 
 std::optional<SteadyStamps> steady_stamps(std::span<const std::int64_t> stamps_ns) {
   if (stamps_ns.size() < kFewestScans) return std::nullopt;

@@ -23,4 +23,8 @@ struct SteadyStamps {
 /// does; or if they are regular in another order.
 std::optional<SteadyStamps> steady_stamps(std::span<const std::int64_t> stamps_ns);
 
+/// True for scans of a steady scanner that were logged in another order than they were taken in:
+/// their stamps are right.
+bool are_regular_in_another_order(std::span<const std::int64_t> stamps_ns);
+
 }  // namespace slammot::sensing

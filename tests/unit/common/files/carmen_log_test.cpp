@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -129,6 +130,49 @@ TEST_F(CarmenLogTest, TakesTheTurnsOfOdometryFromAnImu) {
   const double turned_rad = reading.odometry[99].wheel_from_base.heading_rad -
                             reading.odometry[79].wheel_from_base.heading_rad;
   EXPECT_NEAR(turned_rad, 1.0, 0.02);
+}
+
+/// Like straight_drive(), for more than ten seconds.
+std::string long_drive(int scans) {
+  std::string log;
+  for (int i = 0; i < scans; ++i) {
+    const std::string s = std::to_string(100 + i / 10) + "." + std::to_string(i % 10);
+    log += FlaserLine{.pose = s + " 0 0", .ipc = "1" + s, .logger = s}.text();
+  }
+  return log;
+}
+
+/// The lines of a log, each so many of them backwards.
+std::string backwards_by(std::size_t lines_at_a_time, const std::string& log) {
+  std::vector<std::string> lines;
+  std::istringstream text(log);
+  for (std::string line; std::getline(text, line);) lines.push_back(line + "\n");
+  for (std::size_t i = 0; i + lines_at_a_time <= lines.size(); i += lines_at_a_time)
+    std::reverse(lines.begin() + static_cast<std::ptrdiff_t>(i),
+                 lines.begin() + static_cast<std::ptrdiff_t>(i + lines_at_a_time));
+  std::string result;
+  for (const std::string& line : lines) result += line;
+  return result;
+}
+
+TEST_F(CarmenLogTest, SortsScansThatWereLoggedInAnotherOrder) {
+  const Reading in_order = read(long_drive(400));
+  const Reading reading = read(backwards_by(5, long_drive(400)));
+  ASSERT_EQ(reading.scans.size(), in_order.scans.size());
+  for (std::size_t i = 0; i < reading.scans.size(); ++i) {
+    EXPECT_EQ(reading.scans[i].stamp_ns, in_order.scans[i].stamp_ns);
+    EXPECT_EQ(reading.odometry[i].wheel_from_base, in_order.odometry[i].wheel_from_base);
+  }
+  EXPECT_TRUE(reading.plan.scans_are_sorted);
+  EXPECT_FALSE(in_order.plan.scans_are_sorted);
+}
+
+TEST_F(CarmenLogTest, LeavesAFewLateScansToLocalization) {
+  std::string log = long_drive(400);
+  log += FlaserLine{.pose = "112.3 0 0", .ipc = "1112.3", .logger = "140.0"}.text();
+  const Reading reading = read(log);
+  EXPECT_FALSE(reading.plan.scans_are_sorted);
+  EXPECT_LT(reading.scans.back().stamp_ns, reading.scans[399].stamp_ns);
 }
 
 TEST_F(CarmenLogTest, ReadsCompressedLogsAlike) {

@@ -17,13 +17,17 @@ Pose2 pose_at(double time_s) {
 }
 
 struct Drive {
+  std::vector<double> scan_times_s;
   std::vector<TimedPose> odometry;
   std::vector<ScanPairMotion> pairs;
 };
 
 Drive drive_with(double late_s, std::size_t pair_count = 40) {
   Drive drive;
-  for (int i = 0; i < 600; ++i) drive.odometry.push_back({0.1 * i, pose_at(0.1 * i - late_s)});
+  for (int i = 0; i < 600; ++i) {
+    drive.scan_times_s.push_back(0.1 * i);
+    drive.odometry.push_back({0.1 * i, pose_at(0.1 * i - late_s)});
+  }
   for (std::size_t i = 0; i < pair_count; ++i) {
     const std::size_t first = 20 + i * 13;
     const std::size_t second = first + 4;
@@ -35,12 +39,20 @@ Drive drive_with(double late_s, std::size_t pair_count = 40) {
 }
 
 double found_in(const Drive& drive, double turn_scale = 1.0) {
-  return odometry_lateness_s(drive.pairs, drive.odometry, {1.0, turn_scale});
+  return odometry_lateness_s(drive.pairs, drive.scan_times_s, drive.odometry, {1.0, turn_scale});
 }
 
 TEST(OdometryLateness, IsFoundByTheTurnsOfPairsOfScans) {
   EXPECT_NEAR(found_in(drive_with(0.3)), 0.3, 0.01);
   EXPECT_NEAR(found_in(drive_with(-0.2)), -0.2, 0.01);
+}
+
+TEST(OdometryLateness, IsFoundInOdometryThatComesAtOtherTimesThanScans) {
+  Drive drive = drive_with(0.0);
+  drive.odometry.clear();
+  for (int i = 0; i < 1500; ++i)
+    drive.odometry.push_back({0.04 * i + 0.013, pose_at(0.04 * i + 0.013 - 0.25)});
+  EXPECT_NEAR(found_in(drive), 0.25, 0.01);
 }
 
 TEST(OdometryLateness, IsNoneForOdometryInTime) { EXPECT_EQ(found_in(drive_with(0.0)), 0.0); }
