@@ -39,13 +39,6 @@ constexpr double kMostMisfit = 3.0;
 
 using geometry::squared;
 
-bool count_nothing(const Pose2& by_wheels) {
-  constexpr double kNothing_m = 1e-4;
-  constexpr double kNothing_rad = 1e-4;
-  return std::hypot(by_wheels.x_m, by_wheels.y_m) < kNothing_m &&
-         std::abs(by_wheels.heading_rad) < kNothing_rad;
-}
-
 /// Wheels that count nothing while the vehicle moves tell nothing of their factors.
 bool are_frozen(const Pose2& by_wheels, const Pose2& by_matches) {
   constexpr double kMoves_m = 0.03;
@@ -55,6 +48,13 @@ bool are_frozen(const Pose2& by_wheels, const Pose2& by_matches) {
 }
 
 }  // namespace
+
+bool count_nothing(const Pose2& by_wheels) {
+  constexpr double kNothing_m = 1e-4;
+  constexpr double kNothing_rad = 1e-4;
+  return std::hypot(by_wheels.x_m, by_wheels.y_m) < kNothing_m &&
+         std::abs(by_wheels.heading_rad) < kNothing_rad;
+}
 
 double log_marginal_likelihood(const geometry::UncertainPose2& prediction, const Pose2& optimum,
                                const Matrix3& information) {
@@ -262,6 +262,12 @@ bool has_changed(const OdometryBelief& belief, const Pose2& by_wheels, double du
 OdometryBelief with_changed_wheels(OdometryBelief belief) {
   constexpr double kMostOdds = 1.0;
   if (!belief.is_disbelieved) belief.log_odds = std::min(belief.log_odds, kMostOdds);
+  return belief;
+}
+
+OdometryBelief with_first_wheels(OdometryBelief belief) {
+  belief.matched_velocity_variance = OdometryBelief().matched_velocity_variance;
+  belief.last_duration_s = belief.previous_duration_s = 0.0;
   return belief;
 }
 

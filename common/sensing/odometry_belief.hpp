@@ -184,6 +184,13 @@ bool has_changed(const OdometryBelief& belief, const geometry::Pose2& by_wheels,
 /// that it is right.
 OdometryBelief with_changed_wheels(OdometryBelief belief);
 
+/// Whether odometry (uncorrected) says that nothing moved.
+bool count_nothing(const geometry::Pose2& by_wheels);
+
+/// State before the first step of odometry that begins to count while the vehicle drives: how fast
+/// it was, and how it accelerated, is not known.
+OdometryBelief with_first_wheels(OdometryBelief belief);
+
 /// State after a step with this odometry. What wheels were disbelieved for is over when they
 /// counted nothing at the last step and count again: comparisons decide anew.
 OdometryBelief with_wheels(OdometryBelief belief, const geometry::Pose2& by_wheels,

@@ -10,7 +10,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x736c616d6d6f7468;  // "slammoth": the last letter counts the forms
+constexpr std::uint64_t kMark = 0x736c616d6d6f7469;  // "slammoti": the last letter counts the forms
                                                      // of a checkpoint
 constexpr double kFastestRestored = 1e3;  // m/s or rad/s: no vehicle was faster when the checkpoint
                                           // was made
@@ -37,6 +37,7 @@ void visit_last(LastScan& last, Visitor visit) {
   visit(last.doubted_wheels);
   visit(last.trusted_s);
   visit(last.stood_s);
+  visit(last.wheels_have_counted);
 }
 
 template <typename Belief, typename Visitor>

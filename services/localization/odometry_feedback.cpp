@@ -92,6 +92,7 @@ void OdometryPrediction::learn_wheels(const Step& step, const ScanMatch& match) 
   constexpr int kAdoptAfterScans = 3;
   sensing::OdometryBelief& belief = state_.belief;
   const bool is_matched = match.is_believed && !match.is_lost;
+  if (step.wheels_begin) belief = sensing::with_first_wheels(belief);
   belief = sensing::moved(belief, step.explanation, step.duration_s,
                           is_matched ? std::optional(matched_step(step, match)) : std::nullopt,
                           config_.motion, config_.belief);
@@ -191,7 +192,10 @@ OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step,
       .yaw_rate_radps = is_by_velocity ? state_.estimate.velocity.y() : step.yaw_rate_radps,
       .doubted_wheels = step.has_doubted_wheels,
       .trusted_s = step.has_doubted_wheels ? 0.0 : state_.last->trusted_s + step.duration_s,
-      .stood_s = step.stood_s};
+      .stood_s = step.stood_s,
+      .wheels_have_counted =
+          state_.last->wheels_have_counted ||
+          (step.has_wheels() && !sensing::count_nothing(step.uncorrected_by_wheels))};
 }
 
 void OdometryPrediction::begin_map_here() {

@@ -225,14 +225,16 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   }
   const bool was_disbelieved =
       state_.belief.last == sensing::StepExplanation::kOther && state_.last->has_wheels;
-  step.wheels_changed =
+  const bool has_changed =
       config_.odometry.time_is_known && by_wheels &&
       sensing::has_changed(state_.belief, step.uncorrected_by_wheels, step.duration_s);
+  step.wheels_begin = has_changed && !state_.last->wheels_have_counted;
+  step.wheels_changed = has_changed && !step.wheels_begin;
   step.wheels_in_doubt =
       step.wheels_changed || (config_.odometry.time_is_known && by_wheels && was_disbelieved);
   const bool cannot_be = by_wheels && is_impossible(*by_wheels, step.duration_s);
   const bool is_jump = config_.odometry.time_is_known && by_wheels && !cannot_be &&
-                       is_doubtful(*by_wheels, step.duration_s);
+                       !step.wheels_begin && is_doubtful(*by_wheels, step.duration_s);
   step.has_doubted_wheels = cannot_be || is_jump;
   if (state_.belief.is_disbelieved && by_wheels) go_on_without_wheels(step);
   else if (by_wheels && !step.has_doubted_wheels) follow_wheels(*by_wheels, step);
@@ -252,7 +254,7 @@ StepMixture OdometryPrediction::explanations(const Step& by_wheels) const {
     for (Step& step : steps) step = with_velocity(step, *state_.last);
     return steps;
   }
-  if (!by_wheels.is_by_wheels()) return {by_wheels};
+  if (!by_wheels.is_by_wheels() || by_wheels.wheels_begin) return {by_wheels};
   StepMixture steps{by_wheels, alternatives.rough(by_wheels), alternatives.other(by_wheels)};
   if (auto recalibrated = alternatives.recalibrated(by_wheels)) steps.push_back(*recalibrated);
   for (Step& step : steps) step = with_velocity(step, *state_.last);

@@ -52,8 +52,10 @@ struct Step {
                                                                              ///< the mixture of
                                                                              ///< predictions this
                                                                              ///< is.
-  bool wheels_changed = false;            ///< Odometry changed its velocity as no vehicle does.
-  bool wheels_in_doubt = false;           ///< So it did, or it was not believed at the last scan.
+  bool wheels_begin = false;     ///< They count for the first time, and at once more than a vehicle
+                                 ///< sets off with: it was driving before.
+  bool wheels_changed = false;   ///< Odometry changed its velocity as no vehicle does.
+  bool wheels_in_doubt = false;  ///< So it did, or it was not believed at the last scan.
   bool explanation_was_chosen = false;    ///< Odometry predicted the step, and another explanation
                                           ///< won.
   geometry::Pose2 uncorrected_by_wheels;  ///< As odometry has the step.
@@ -109,9 +111,10 @@ class OdometryPrediction {
     bool was_sampled = false;     ///< Its match left some direction to the prediction.
     double speed_mps = 0.0;
     double yaw_rate_radps = 0.0;
-    bool doubted_wheels = false;  ///< What they said last was a jump.
-    double trusted_s = 0.0;       ///< Time since then.
-    double stood_s = 0.0;         ///< How long wheels have reported no motion.
+    bool doubted_wheels = false;       ///< What they said last was a jump.
+    double trusted_s = 0.0;            ///< Time since then.
+    double stood_s = 0.0;              ///< How long wheels have reported no motion.
+    bool wheels_have_counted = false;  ///< Since the drive began.
   };
 
   /// All that predict() and observe() change; what is kept of odometry samples is not in it.

@@ -82,6 +82,8 @@ ALTERATIONS = (
     ("--no-echo", {"choices": ("0", "inf", "nan"), "help": "how no echo is written"},
      lambda drive, value, options: alter.no_echo_as(drive, value)),
     flag("--millimetres", lambda drive: alter.ranges_scaled(drive, 1000.0), "ranges"),
+    ("--another-order", {"type": int, "metavar": "N", "help": "each N scans in any order"},
+     lambda drive, value, options: alter.in_another_order(drive, value, options.seed)),
     one("--stamp-batches", int, "N", alter.scan_stamps_of_batches, "scans come N at a time and are stamped then"),
     drawn("--stamp-noise", "SIGMA", alter.scan_stamps_noisy, "of the scans' stamps, in seconds"),
     ("--stamps", {"choices": sorted(STAMPS), "help": "all 0; counting scans; whole seconds; milliseconds; an hour later from the middle on; backwards"},

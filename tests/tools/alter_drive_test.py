@@ -142,6 +142,12 @@ class Stamps(AlteredDrive):
         self.assertEqual([stamp_of(r) for r in FLASER.records if isinstance(r, Odom)], [stamp_of(r) for r in altered.records if isinstance(r, Odom)])
         self.assert_odometry_kept(FLASER, altered)
 
+    def test_another_order_changes_places_among_neighbours(self):
+        altered, before = stamps(alter.in_another_order(FLASER, 5, 1)), stamps(FLASER)
+        self.assertNotEqual(altered, before)
+        for first in range(0, len(before), 5):
+            self.assertEqual(sorted(altered[first:first + 5]), before[first:first + 5])
+
     def test_of_batches_are_those_of_their_last_scans(self):
         altered, before = stamps(alter.scan_stamps_of_batches(FLASER, 4)), stamps(FLASER)
         for place, stamp in enumerate(altered):

@@ -70,6 +70,19 @@ def scan_stamps_noisy(drive, sigma_s, seed):
     return drive.replaced(noisy)
 
 
+def in_another_order(drive, size, seed):
+    """Each so many scans in any order, with their stamps and poses; other records stay where they are."""
+    records = list(drive.records)
+    places = [i for i, record in enumerate(records) if isinstance(record, Scan)]
+    for first in range(0, len(places), size):
+        some = places[first:first + size]
+        scans = [records[i] for i in some]
+        generator(seed, "order", scans[0]).shuffle(scans)
+        for place, scan in zip(some, scans):
+            records[place] = scan
+    return dataclasses.replace(drive, records=tuple(records))
+
+
 def scan_stamps_of_batches(drive, size, between_s=0.0002):
     """Scans come so many at a time and are stamped as they come, right after one another. Stamps of ODOM lines are as they were."""
     scans = drive.scans()

@@ -54,6 +54,7 @@ STANDARD = (
 )
 FURTHER = (
     Way("stamps-noisy", "5 ms of noise on the stamps of scans", lambda drive, seed: alter.scan_stamps_noisy(drive, 0.005, seed), r"stamps of scans are noisy"),
+    Way("another-order", "each five scans in any order", lambda drive, seed: alter.in_another_order(drive, 5, seed), r"logged in another order|out of order"),
     Way("stamps-batches", "scans come four at a time and are stamped then", lambda drive, seed: alter.scan_stamps_of_batches(drive, 4), r"stamps of scans are noisy|stamps do not advance"),
     Way("stamps-milliseconds", "stamps in milliseconds", lambda drive, seed: alter.stamps_milliseconds(drive), OF_STAMPS),
     Way("stamps-hour", "stamps jump by an hour in the middle", lambda drive, seed: alter.stamps_jump(drive), OF_STAMPS),

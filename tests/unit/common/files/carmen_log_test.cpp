@@ -155,6 +155,20 @@ std::string backwards_by(std::size_t lines_at_a_time, const std::string& log) {
   return result;
 }
 
+TEST_F(CarmenLogTest, ExtrapolatesOdometryThatBeginsAfterTheFirstScans) {
+  std::string log;
+  for (int i = 0; i < 40; ++i) {
+    const std::string s = std::to_string(100 + i / 10) + "." + std::to_string(i % 10);
+    log += FlaserLine{.pose = "0 0 0", .ipc = "1" + s, .logger = s}.text();
+    if (i >= 2) log += "ODOM " + s + " 0 0 0 0 0 1" + s + " host " + s + "\n";
+  }
+  const Reading reading = read(log);
+  ASSERT_GE(reading.odometry.size(), 4U);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(reading.odometry[static_cast<std::size_t>(i)].wheel_from_base.x_m, 100.0 + 0.1 * i,
+                1e-6);
+}
+
 TEST_F(CarmenLogTest, SortsScansThatWereLoggedInAnotherOrder) {
   const Reading in_order = read(long_drive(400));
   const Reading reading = read(backwards_by(5, long_drive(400)));

@@ -113,6 +113,27 @@ TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityOfTheMatchesWithoutOdometry) {
   }
 }
 
+TEST_F(OdometryPredictionTest, BelievesWheelsThatBeginToCountWhileTheVehicleDrives) {
+  for (int scan = 0; scan < 5; ++scan) {
+    prediction_.add({stamp_ns(scan), wheel_from_odom_ * pose_at(4)});
+    if (scan == 0) prediction_.begin(0);
+    else prediction_.observe(prediction_.predict(stamp_ns(scan)), matched_at(Pose2{}));
+  }
+  for (int scan = 5; scan < 9; ++scan) {
+    prediction_.add({stamp_ns(scan), wheel_from_odom_ * pose_at(scan)});
+    const Step step = prediction_.predict(stamp_ns(scan));
+    EXPECT_EQ(step.wheels_begin, scan == 5);
+    EXPECT_FALSE(step.wheels_changed || step.has_doubted_wheels) << scan;
+    EXPECT_EQ(step.source, StepSource::kOdometry);
+    EXPECT_EQ(prediction_.explanations(step).size() == 1, scan == 5);
+    EXPECT_THAT(step.after.odom_from_base, PoseNear(inverse(pose_at(4)) * pose_at(scan), 0.05));
+    prediction_.observe(step, matched_at(inverse(pose_at(4)) * pose_at(scan)));
+  }
+  wheel_from_odom_.x_m += 0.6;
+  prediction_.add({stamp_ns(9), wheel_from_odom_ * pose_at(9)});
+  EXPECT_TRUE(prediction_.predict(stamp_ns(9)).wheels_changed) << "they have counted before";
+}
+
 TEST_F(OdometryPredictionTest, HoldsTheVehicleToStandOnceWheelsHaveStoodForAWhile) {
   drive(0, 1);
   int standing = 0;
