@@ -308,9 +308,11 @@ class CarmenSurvey {
   ScannerPlan scanner_plan(const Lasers& lasers) const;
   double max_range_m(const Lasers& lasers) const;
   static void convert_readings(Lasers& lasers, double unit_m);
-  std::vector<StampedPose> odometry_of_lines(const LogPlan& plan) const;
-  static std::vector<StampedPose> odometry_of_scans(const Lasers& lasers, const LogPlan& plan,
-                                                    std::span<const std::int64_t> stamps_ns);
+  static std::vector<std::int64_t> scan_stamps_ns(const Lasers& lasers, const LogPlan& plan);
+  static std::vector<sensing::Odometry> odometry_of_scans(const Lasers& lasers,
+                                                          const LogPlan& plan);
+  std::vector<sensing::Odometry> odometry_of_lines(const LogPlan& plan) const;
+  std::vector<sensing::Odometry> odometry_of(const Lasers& lasers, const LogPlan& plan) const;
   double odometry_lateness_s(const Lasers& lasers, const LogPlan& plan,
                              const matching::AssumedBeams& beams) const;
   static double fine_odometry_lateness_s(const Lasers& lasers, const LogPlan& plan,

@@ -43,10 +43,22 @@ bool CarmenSurvey::AgreementCheck::agrees() const {
   return compared_ > 0 && static_cast<double>(met_) >= kMetShare * static_cast<double>(compared_);
 }
 
-std::vector<CarmenSurvey::StampedPose> CarmenSurvey::odometry_of_scans(
-    const Lasers& lasers, const LogPlan& plan, std::span<const std::int64_t> stamps_ns) {
-  std::vector<StampedPose> odometry;
-  for (std::size_t i = 0; i < lasers.poses.size(); ++i) {
+/// By the chosen clock; none where one is missing.
+std::vector<std::int64_t> CarmenSurvey::scan_stamps_ns(const Lasers& lasers, const LogPlan& plan) {
+  if (!plan.times.stamps_ns.empty()) return plan.times.stamps_ns;
+  std::vector<std::int64_t> stamps_ns;
+  for (const auto& stamp_ns : plan.clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns) {
+    if (!stamp_ns) return {};
+    stamps_ns.push_back(*stamp_ns);
+  }
+  return stamps_ns;
+}
+
+std::vector<sensing::Odometry> CarmenSurvey::odometry_of_scans(const Lasers& lasers,
+                                                               const LogPlan& plan) {
+  const std::vector<std::int64_t> stamps_ns = scan_stamps_ns(lasers, plan);
+  std::vector<sensing::Odometry> odometry;
+  for (std::size_t i = 0; i < stamps_ns.size(); ++i) {
     const bool is_held = plan.odometry_held_scans > 0 && i > 0 &&
                          lasers.poses[i].wheel_from_base == lasers.poses[i - 1].wheel_from_base;
     if (!is_held) odometry.push_back({stamps_ns[i], lasers.poses[i].wheel_from_base});
@@ -54,11 +66,11 @@ std::vector<CarmenSurvey::StampedPose> CarmenSurvey::odometry_of_scans(
   return odometry;
 }
 
-/// In the order of their stamps; those that are older than one before are left out.
-std::vector<CarmenSurvey::StampedPose> CarmenSurvey::odometry_of_lines(const LogPlan& plan) const {
+/// Without those that are older than one before.
+std::vector<sensing::Odometry> CarmenSurvey::odometry_of_lines(const LogPlan& plan) const {
   const OdometryLines& lines = chosen_odometry_lines();
   const auto& recorded_ns = plan.clock == LogClock::kIpc ? lines.ipc_ns : lines.logger_ns;
-  std::vector<StampedPose> odometry;
+  std::vector<sensing::Odometry> odometry;
   for (std::size_t i = 0; i < lines.poses.size(); ++i) {
     const auto stamp_ns = plan.odometry_stamps_ns.empty()
                               ? recorded_ns[i]
@@ -69,22 +81,21 @@ std::vector<CarmenSurvey::StampedPose> CarmenSurvey::odometry_of_lines(const Log
   return odometry;
 }
 
+/// With the stamps of the plan.
+std::vector<sensing::Odometry> CarmenSurvey::odometry_of(const Lasers& lasers,
+                                                         const LogPlan& plan) const {
+  return plan.odometry == OdometrySource::kOdomLines ? odometry_of_lines(plan)
+                                                     : odometry_of_scans(lasers, plan);
+}
+
 /// Of odometry that has the clock of the scans.
 double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& plan,
                                          const matching::AssumedBeams& beams) const {
   const bool has_clock =
       plan.clock != LogClock::kNominal && !plan.is_timed_by_order() && !plan.first_scan_is_ahead;
   if (!has_clock || plan.odometry == OdometrySource::kNone) return 0.0;
-  std::vector<std::int64_t> stamps_ns = plan.times.stamps_ns;
-  if (stamps_ns.empty()) {
-    for (const auto& stamp_ns : plan.clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns) {
-      if (!stamp_ns) return 0.0;
-      stamps_ns.push_back(*stamp_ns);
-    }
-  }
-  const std::vector<StampedPose> recorded = plan.odometry == OdometrySource::kOdomLines
-                                                ? odometry_of_lines(plan)
-                                                : odometry_of_scans(lasers, plan, stamps_ns);
+  const std::vector<std::int64_t> stamps_ns = scan_stamps_ns(lasers, plan);
+  if (stamps_ns.empty()) return 0.0;
   const auto time_s = [&](std::int64_t stamp_ns) {
     return static_cast<double>(stamp_ns - stamps_ns.front()) * 1e-9;
   };
@@ -94,7 +105,7 @@ double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& pl
   std::vector<matching::TimedPose> odometry;
   std::vector<matching::TimedPose> of_base;
   matching::PoseCorrection in_order;
-  for (const auto& [stamp_ns, wheel_from_base] : recorded) {
+  for (const auto& [stamp_ns, wheel_from_base] : odometry_of(lasers, plan)) {
     odometry.push_back({time_s(stamp_ns), corrected(correction, wheel_from_base)});
     of_base.push_back({time_s(stamp_ns), in_order.next(correction, wheel_from_base)});
   }
@@ -157,7 +168,9 @@ void CarmenSurvey::treat_poor_odometry(const Lasers& lasers, LogPlan& plan) cons
   const double scan_period_s = plan.figures.scan_period_s;
   const double period_s =
       is_in_lines ? plan.figures.duration_s / static_cast<double>(lines.count) : scan_period_s;
-  const double noise_m = (is_in_lines ? lines.noise : lasers.pose_noise).mean_m();
+  const double along_m = sensing::forward_noise_m(odometry_of(lasers, plan));
+  const double noise_m = std::max((is_in_lines ? lines.noise : lasers.pose_noise).mean_m(),
+                                  along_m > kMuchNoise_m ? along_m : 0.0);
   const double held_s = static_cast<double>(plan.odometry_held_scans) * scan_period_s;
   const bool is_held = plan.odometry_held_scans > 0 && !is_in_lines;
   const bool is_noisy =

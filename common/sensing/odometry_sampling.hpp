@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/geometry/pose2.hpp"
+#include "common/sensing/scan.hpp"
 
 namespace slammot::sensing {
 
@@ -40,5 +42,10 @@ class PoseNoise {
   double changes_m_ = 0.0;
   std::size_t steps_ = 0;
 };
+
+/// How much steps along the way differ from one to the next beyond what a vehicle accelerates [m]:
+/// poses that were read at other times than they are stamped, while the vehicle drives. Median over
+/// the steps of a vehicle that moves; 0 of few. samples: in order of time.
+double forward_noise_m(std::span<const Odometry> samples);
 
 }  // namespace slammot::sensing

@@ -1,6 +1,10 @@
 #include "common/sensing/odometry_sampling.hpp"
 
 #include <gtest/gtest.h>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
 
 namespace slammot::sensing {
 namespace {
@@ -43,6 +47,32 @@ TEST(PoseNoise, IsNotToldByFewStepsOrAVehicleThatStands) {
   for (int i = 0; i < 1000; ++i) standing.add({0.0, i % 2 * 0.001, 0.0});
   EXPECT_EQ(few.mean_m(), 0.0);
   EXPECT_EQ(standing.mean_m(), 0.0);
+}
+
+/// A car that speeds up, brakes and turns, 37 samples a second, each read so much earlier than it
+/// is stamped, at random.
+std::vector<Odometry> car_with_jitter(double most_s) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> early_s(0.0, most_s);
+  std::vector<Odometry> samples;
+  for (int i = 0; i < 2000; ++i) {
+    const double time_s = 0.027 * i - early_s(random);
+    samples.push_back(
+        {std::int64_t{27'000'000} * i, {8.0 * time_s + 6.0 * std::sin(0.5 * time_s), 0.0, 0.0}});
+  }
+  return samples;
+}
+
+TEST(ForwardNoise, IsThatOfPosesReadAtOtherTimesThanTheyAreStamped) {
+  EXPECT_EQ(forward_noise_m(car_with_jitter(0.0)), 0.0);
+  EXPECT_NEAR(forward_noise_m(car_with_jitter(0.02)), 0.06, 0.02);
+}
+
+TEST(ForwardNoise, IsNoneOfMissingSamples) {
+  std::vector<Odometry> samples = car_with_jitter(0.0);
+  for (std::size_t i = 10; i < 1500; i += 7)
+    samples.erase(samples.begin() + static_cast<std::ptrdiff_t>(i));
+  EXPECT_EQ(forward_noise_m(samples), 0.0);
 }
 
 }  // namespace
