@@ -102,6 +102,7 @@ void visit_parts(AnyCheckpoint& checkpoint, Visitor visit) {
   visit(checkpoint.prediction.applies_stamp_offset);
   visit_estimate(checkpoint.prediction.with_pivot, visit);
   visit(checkpoint.prediction.applies_pivot);
+  visit(checkpoint.prediction.innovations);
   visit_belief(checkpoint.prediction.belief, visit);
   visit_monitor(checkpoint.monitor, visit);
   visit(checkpoint.covariance.factors.of_axis);

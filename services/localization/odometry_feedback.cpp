@@ -43,6 +43,7 @@ void OdometryPrediction::observe(const Step& step, const ScanMatch& match) {
   if (step.duration_s > 0.0) learn_wheels(step, match);
   learn_stamp_offset(step, match);
   learn_pivot(step, match);
+  doubt_calibration(step, match);
   renew_map(matched_step(step, match), match);
   state_.last = last_after(step, match);
 }
@@ -165,6 +166,40 @@ void OdometryPrediction::learn_pivot(const Step& step, const ScanMatch& match) {
   state_.estimate = sensing::with_pivot_of(state_.estimate, watched);
   state_.with_stamp_offset = sensing::with_pivot_of(state_.with_stamp_offset, watched);
   state_.applies_pivot = true;
+}
+
+/// Matches that correct the heading or the way to the same side scan after scan tell of an error
+/// that came since the calibration was learned, as of a wheel that drags: what is known of it is
+/// given up as far as the error is large. Where scans are frequent: a mean over few seconds tells.
+void OdometryPrediction::doubt_calibration(const Step& step, const ScanMatch& match) {
+  constexpr double kFrequent_s = 0.06;
+  constexpr double kLeastWay_m = 0.02;
+  constexpr double kTurnsOfNoise = 1.8;  // sigmas in one scan: twice what sound wheels have at
+                                         // most,
+  constexpr double kWaysOfNoise = 1.25;  // and three times
+  constexpr int kScale = 3;              // rows of the covariance
+  constexpr int kHeadingRate = 4;
+  if (!tells_of_calibration(step, match) || !config_.odometry.time_is_known ||
+      step.duration_s <= 0.0 || step.usual_duration_s > kFrequent_s)
+    return;
+  const geometry::UncertainPose2 prior = step.prior();
+  const Pose2 missed = geometry::inverse(prior.pose) * match.odom_from_base.pose;
+  const geometry::Matrix3 told = prior.covariance - match.odom_from_base.covariance;
+  const geometry::Vector2 ahead(std::cos(prior.pose.heading_rad), std::sin(prior.pose.heading_rad));
+  const double way_m2 = ahead.dot(told.topLeftCorner<2, 2>() * ahead);
+  const double way_m = step.before_from_base.x_m;
+  auto& [turns, ways] = state_.innovations;
+  if (told(2, 2) > 0.0)
+    turns.add(missed.heading_rad / std::sqrt(told(2, 2)), missed.heading_rad / step.duration_s);
+  if (way_m2 > 0.0 && std::abs(way_m) > kLeastWay_m)
+    ways.add(missed.x_m / std::sqrt(way_m2), missed.x_m / way_m);
+  const double turn_variance = turns.take_consistent(kTurnsOfNoise);
+  const double way_variance = ways.take_consistent(kWaysOfNoise);
+  for (sensing::MotionEstimate* estimate :
+       {&state_.estimate, &state_.with_stamp_offset, &state_.with_pivot}) {
+    estimate->covariance(kHeadingRate, kHeadingRate) += turn_variance;
+    estimate->covariance(kScale, kScale) += way_variance;
+  }
 }
 
 /// The map grows by what is matched to it, with the errors of those matches in it.

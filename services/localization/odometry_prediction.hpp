@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/sensing/mean_innovation.hpp"
 #include "common/sensing/motion_model.hpp"
 #include "common/sensing/odometry_belief.hpp"
 #include "common/sensing/odometry_buffer.hpp"
@@ -117,6 +118,12 @@ class OdometryPrediction {
     bool wheels_have_counted = false;  ///< Since the drive began.
   };
 
+  /// What matches say of the heading and of the way beyond the prediction by odometry.
+  struct Innovations {
+    sensing::MeanInnovation turns;  ///< Error as a turn rate [rad/s].
+    sensing::MeanInnovation ways;   ///< Error as a share of the way.
+  };
+
   /// All that predict() and observe() change; what is kept of odometry samples is not in it.
   struct State {
     sensing::MotionEstimate estimate;           ///< Of one clock for scans and odometry, until
@@ -127,6 +134,7 @@ class OdometryPrediction {
     sensing::MotionEstimate with_pivot;  ///< Of the same motion, until applies_pivot: with a
                                          ///< turning point that is not as said.
     bool applies_pivot = false;
+    Innovations innovations;
     std::optional<LastScan> last;  ///< None before the first scan.
     sensing::OdometryBelief belief;
   };
@@ -218,6 +226,7 @@ class OdometryPrediction {
   void take_back_standing(const sensing::OdometryComparison& comparison);
   void learn_wheels(const Step& step, const ScanMatch& match);
   void learn_stamp_offset(const Step& step, const ScanMatch& match);
+  void doubt_calibration(const Step& step, const ScanMatch& match);
   void learn_pivot(const Step& step, const ScanMatch& match);
   void renew_map(const geometry::Pose2& before_from_base, const ScanMatch& match);
   double unconfirmed_s(const sensing::OdometryComparison& comparison) const;
