@@ -54,6 +54,7 @@ std::vector<std::int64_t> CarmenSurvey::scan_stamps_ns(const Lasers& lasers, con
   return stamps_ns;
 }
 
+/// Without those that are older than one before.
 std::vector<sensing::Odometry> CarmenSurvey::odometry_of_scans(const Lasers& lasers,
                                                                const LogPlan& plan) {
   const std::vector<std::int64_t> stamps_ns = scan_stamps_ns(lasers, plan);
@@ -61,12 +62,13 @@ std::vector<sensing::Odometry> CarmenSurvey::odometry_of_scans(const Lasers& las
   for (std::size_t i = 0; i < stamps_ns.size(); ++i) {
     const bool is_held = plan.odometry_held_scans > 0 && i > 0 &&
                          lasers.poses[i].wheel_from_base == lasers.poses[i - 1].wheel_from_base;
-    if (!is_held) odometry.push_back({stamps_ns[i], lasers.poses[i].wheel_from_base});
+    const bool is_late = !odometry.empty() && stamps_ns[i] <= odometry.back().stamp_ns;
+    if (!is_held && !is_late) odometry.push_back({stamps_ns[i], lasers.poses[i].wheel_from_base});
   }
   return odometry;
 }
 
-/// Without those that are older than one before.
+/// The same of ODOM lines.
 std::vector<sensing::Odometry> CarmenSurvey::odometry_of_lines(const LogPlan& plan) const {
   const OdometryLines& lines = chosen_odometry_lines();
   const auto& recorded_ns = plan.clock == LogClock::kIpc ? lines.ipc_ns : lines.logger_ns;
@@ -124,7 +126,7 @@ double CarmenSurvey::fine_odometry_lateness_s(const Lasers& lasers, const LogPla
                                               double roughly_s) {
   constexpr double kLeast_s = 0.012;  // less is estimated during the drive
   constexpr double kSigmas = 5.0;
-  constexpr double kMostSigma_s = 0.02;
+  constexpr double kMostSigma_s = 0.01;   // noise of wheels on an even drive looks like 0.02
   constexpr double kSlowestTurn_s = 0.2;  // of a scanner
   constexpr double kDense_s = 0.06;       // time between samples, in which a car turns evenly
   const matching::LogCorrection& correction = plan.evidence.correction;

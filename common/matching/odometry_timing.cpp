@@ -16,6 +16,7 @@ constexpr std::size_t kFewestTimed = 12;
 constexpr double kWorstSquaredError = 9.0;  // of one pair; limits the effect of wrong matches
 constexpr double kLeastTimingError = 0.2;
 constexpr double kNearlyStraight_rad = 0.05;
+constexpr double kFactorSigma = 0.05;  // of the common factor of turns, and of ways
 
 /// Times of two scans.
 struct ScanTimesOfPair {
@@ -44,7 +45,6 @@ struct Quantity {
 /// factor that fits best is near 1. Large errors of single pairs are limited.
 double error_with_best_factor(const std::vector<double>& by_odometry,
                               const std::vector<Quantity>& by_scans) {
-  constexpr double kFactorSigma = 0.05;
   constexpr int kReweighings = 3;
   double factor = 1.0;
   double error = 0.0;
@@ -119,6 +119,39 @@ double error_at(const Measurements& all, std::span<const TimedPose> odometry,
   return error_with_best_factor(turns, all.turns) + error_with_best_factor(ways, all.ways);
 }
 
+/// Information about the delay [1/s^2] in quantities of one kind: how much they change with it by
+/// odometry, beyond what a common factor explains. Of a vehicle that drives evenly there is none,
+/// whatever the curve of errors looks like.
+template <typename QuantityOf>
+double information_at(const std::vector<ScanTimesOfPair>& pairs,
+                      const std::vector<Quantity>& measured, std::span<const TimedPose> odometry,
+                      double delay_s, QuantityOf quantity_of) {
+  constexpr double kApart_s = 0.02;
+  double by_delay = 0.0;
+  double by_both = 0.0;
+  double by_factor = 1.0 / (kFactorSigma * kFactorSigma);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto before = motion_at(pairs[i], odometry, delay_s - kApart_s);
+    const auto after = motion_at(pairs[i], odometry, delay_s + kApart_s);
+    if (!before || !after) continue;
+    const double change = (quantity_of(*after) - quantity_of(*before)) / (2.0 * kApart_s);
+    const double quantity = 0.5 * (quantity_of(*after) + quantity_of(*before));
+    const double weight = 1.0 / (measured[i].sigma * measured[i].sigma);
+    by_delay += weight * change * change;
+    by_both += weight * change * quantity;
+    by_factor += weight * quantity * quantity;
+  }
+  return by_delay - by_both * by_both / by_factor;
+}
+
+double information_at(const Measurements& all, std::span<const TimedPose> odometry,
+                      double delay_s) {
+  const auto turn = [](const Pose2& motion) { return motion.heading_rad; };
+  const auto way = [](const Pose2& motion) { return motion.translation_m().norm(); };
+  return information_at(all.turning, all.turns, odometry, delay_s, turn) +
+         information_at(all.driving, all.ways, odometry, delay_s, way);
+}
+
 void keep_covered(double least_s, double most_s, std::span<const TimedPose> odometry,
                   std::vector<ScanTimesOfPair>& pairs, std::vector<Quantity>& measured) {
   std::size_t kept = 0;
@@ -176,8 +209,12 @@ std::optional<OdometryTiming> odometry_timing(std::span<const ScanPair> pairs,
   if (!(bend > 0.0)) return std::nullopt;
   const double usual_error = std::max(at(best) / static_cast<double>(count), kLeastTimingError);
   const double slope = (at(best + kBendSteps) - at(best - kBendSteps)) / (2.0 * kBendSteps);
-  return OdometryTiming{around_s + (best - kFineSteps - slope / bend) * kFineStep_s,
-                        kFineStep_s * std::sqrt(2.0 * usual_error / bend)};
+  const double late_s = around_s + (best - kFineSteps - slope / bend) * kFineStep_s;
+  const double information = information_at(all, odometry, late_s);
+  if (!(information > 0.0)) return std::nullopt;
+  return OdometryTiming{
+      late_s, std::sqrt(std::max(usual_error, 1.0)) *
+                  std::max(kFineStep_s * std::sqrt(2.0 / bend), 1.0 / std::sqrt(information))};
 }
 
 }  // namespace slammot::matching

@@ -102,6 +102,23 @@ TEST(OdometryTiming, IsNotMovedByWheelsThatCountTooMuch) {
   EXPECT_NEAR(found->late_s, 0.03, 0.008);
 }
 
+TEST(OdometryTiming, IsNotToldByAVehicleThatDrivesEvenly) {
+  const testing::FloorPlan plan = hall();
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise_m(0.0, 5e-4);
+  Log log;
+  for (int i = 0; i < 300; ++i) {
+    const double time_s = kPeriod_s * i;
+    const Pose2 pose{6.0 + 1.2 * time_s, 8.0, 0.0};
+    log.scan_times_s.push_back(time_s);
+    log.odometry.push_back({time_s, {pose.x_m + noise_m(random), 8.0, 0.2 * noise_m(random)}});
+    log.pairs.add(scan_from(plan, pose, random), log.odometry.back().pose,
+                  static_cast<std::size_t>(i));
+  }
+  const auto found = timing_of(log);
+  if (found) EXPECT_GT(found->sigma_s, 0.012);
+}
+
 TEST(OdometryTiming, IsUnknownOfAVehicleThatStands) {
   Log log = log_with(0.0);
   log.pairs = {};
