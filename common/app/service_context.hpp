@@ -62,7 +62,7 @@ class ServiceContext {
   template <typename Sample, typename Handle>
   dds::Reader<Sample>& read(const dds::Topic<Sample>& topic, Input kind, Handle handle,
                             dds::History history = dds::History::kProfile) {
-    auto reader = take_prepared(topic);
+    auto reader = take<dds::Reader<Sample>>(topic, prepared_readers_);
     if (!reader) reader = std::make_shared<dds::Reader<Sample>>(participant_, topic, history);
     InputWatch& input =
         board_.input(std::string(topic.name), kind, std::chrono::steady_clock::now());
@@ -99,15 +99,24 @@ class ServiceContext {
   /// takes over, and need not come from the bus.
   template <typename Sample>
   void prepare(const dds::Topic<Sample>& topic, dds::History history) {
-    prepared_[std::string(topic.name)] =
+    prepared_readers_[std::string(topic.name)] =
         std::make_shared<dds::Reader<Sample>>(participant_, topic, history);
+  }
+
+  /// Opens the writer that write() of this topic will use: readers know a standby's before it takes
+  /// over, and need not find it then.
+  template <typename Sample>
+  void prepare_to_write(const dds::Topic<Sample>& topic) {
+    refuse_unless_publisher(topic);
+    prepared_writers_[std::string(topic.name)] =
+        std::make_shared<dds::Writer<Sample>>(participant_, topic);
   }
 
   /// Calls handle(sample) for what came of a prepared topic meanwhile, the last ones, and closes
   /// it.
   template <typename Sample, typename Handle>
   void take_up(const dds::Topic<Sample>& topic, Handle handle) {
-    const auto reader = take_prepared(topic);
+    const auto reader = take<dds::Reader<Sample>>(topic, prepared_readers_);
     if (!reader) return;
     reader->take_each([&](const Sample& sample) {
       if (vehicle_id() == sample.vehicle_id) handle(sample);
@@ -119,7 +128,8 @@ class ServiceContext {
   template <typename Sample>
   dds::Writer<Sample>& write(const dds::Topic<Sample>& topic) {
     refuse_unless_publisher(topic);
-    const auto writer = std::make_shared<dds::Writer<Sample>>(participant_, topic);
+    auto writer = take<dds::Writer<Sample>>(topic, prepared_writers_);
+    if (!writer) writer = std::make_shared<dds::Writer<Sample>>(participant_, topic);
     keep(writer);
     hand_over_.push_back([writer = writer.get()] { writer->hand_over(); });
     return *writer;
@@ -168,13 +178,15 @@ class ServiceContext {
     std::function<void()> work;
   };
 
-  template <typename Sample>
-  std::shared_ptr<dds::Reader<Sample>> take_prepared(const dds::Topic<Sample>& topic) {
-    const auto found = prepared_.find(std::string(topic.name));
-    if (found == prepared_.end()) return nullptr;
-    auto reader = std::static_pointer_cast<dds::Reader<Sample>>(std::move(found->second));
-    prepared_.erase(found);
-    return reader;
+  using Endpoints = std::map<std::string, std::shared_ptr<void>>;  ///< By topic.
+
+  template <typename Side>
+  static std::shared_ptr<Side> take(const dds::TopicInfo& topic, Endpoints& from) {
+    const auto found = from.find(std::string(topic.name));
+    if (found == from.end()) return nullptr;
+    auto endpoint = std::static_pointer_cast<Side>(std::move(found->second));
+    from.erase(found);
+    return endpoint;
   }
 
   template <typename Side>
@@ -202,7 +214,8 @@ class ServiceContext {
   CommandDesk desk_;
   RateLimit rate_limit_;
   std::vector<std::shared_ptr<void>> endpoints_;
-  std::map<std::string, std::shared_ptr<void>> prepared_;  ///< Readers, by topic.
+  Endpoints prepared_readers_;
+  Endpoints prepared_writers_;
   std::vector<std::function<std::optional<dds::QosMismatch>()>> mismatches_;
   std::vector<std::function<void()>> hand_over_;
   std::uint32_t mismatches_reported_ = 0;

@@ -15,6 +15,7 @@ std::vector<config::BoundStage> DetectionService::stages(Settings& settings) {
 void DetectionService::prepare(app::ServiceContext& context) {
   context.prepare(dds::topics::kLocalizedScan, dds::History::kRestart);
   context.prepare(dds::topics::kSegmentedScan, dds::History::kProfile);
+  context.prepare_to_write(dds::topics::kSegmentedScan);
 }
 
 DetectionService::DetectionService(app::ServiceContext& context, const Settings& settings)

@@ -75,6 +75,7 @@ void LocalizationService::prepare(app::ServiceContext& context) {
   context.prepare(dds::topics::kScanLabels, dds::History::kRestart);
   context.prepare(dds::topics::kOdometry, dds::History::kRestart);
   context.prepare(dds::topics::kLaserScan, dds::History::kRestart);
+  context.prepare_to_write(dds::topics::kLocalizedScan);
 }
 
 LocalizationService::~LocalizationService() {

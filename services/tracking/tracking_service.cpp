@@ -67,6 +67,8 @@ TrackingService::TrackingService(app::ServiceContext& context, const Settings& s
 
 void TrackingService::prepare(app::ServiceContext& context) {
   context.prepare(dds::topics::kSegmentedScan, dds::History::kRestart);
+  context.prepare_to_write(dds::topics::kTrackedObjects);
+  context.prepare_to_write(dds::topics::kScanLabels);
 }
 
 /// Of several that were kept the newest counts; once tracking goes on they are echoes of its own.

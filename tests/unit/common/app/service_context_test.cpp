@@ -80,6 +80,17 @@ TEST_F(ContextOnTheBus, RefusesToPublishATopicOfAnotherService) {
   EXPECT_NO_THROW(context.write(dds::topics::kStatus));
 }
 
+TEST_F(ContextOnTheBus, WritesWithTheWriterThatReadersKnowAlready) {
+  ServiceContext tracking{"tracking", options()};
+  tracking.prepare_to_write(dds::topics::kScanLabels);
+  dds::Reader<slammot_ScanLabels> reader(neighbour, dds::topics::kScanLabels);
+  ASSERT_TRUE(reader.wait_for_writers(1, kForever));
+  const auto& writer = tracking.write(dds::topics::kScanLabels);
+  ASSERT_TRUE(writer.wait_for_readers(1, kForever));
+  EXPECT_EQ(reader.matched_writers(), 1U) << "no second one";
+  EXPECT_THROW(tracking.prepare_to_write(dds::topics::kLaserScan), std::logic_error);
+}
+
 TEST_F(ContextOnTheBus, BeatsAndReportsCountersLatenciesAndWhatIsMissing) {
   context.read(dds::topics::kOdometry, Input::kSteady, [](const slammot_Odometry&) {});
   context.status().counter("scans") = 12;
