@@ -450,8 +450,7 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
   plan.odometry_held_scans = lasers.held_poses.most_scans();
   plan.odometry = odometry_source(lasers, plan);
   remove_noise_of_odometry_stamps(plan);
-  plan.odometry_late_s =
-      odometry_lateness_s(lasers, plan, assumed_beams(lasers, plan, fallback_field_of_view_rad));
+  plan.odometry_late_s = odometry_lateness_s(lasers, plan, fallback_field_of_view_rad);
   if (plan.is_timed_by_order())
     plan.odom_lines_before_scan =
         lasers.lines_between[static_cast<std::size_t>(plan.odometry_lines)].before_scan;
@@ -500,10 +499,10 @@ std::vector<matching::ScanPair> CarmenSurvey::with_echoes_of_others(
   return pairs;
 }
 
+/// Of scans with so many beams.
 matching::AssumedBeams CarmenSurvey::assumed_beams(const Lasers& lasers, const LogPlan& plan,
+                                                   std::size_t beams,
                                                    double fallback_field_of_view_rad) {
-  const std::size_t beams =
-      lasers.scans_by_beams.empty() ? 0 : lasers.scans_by_beams.begin()->first;
   const BeamLayout layout =
       lasers.layout.value_or(layout_by_convention(beams, fallback_field_of_view_rad));
   return {layout.first_beam_rad, layout.beam_step_rad, plan.base_from_laser.heading_rad,
@@ -522,7 +521,7 @@ matching::LogEvidence CarmenSurvey::weigh(const Lasers& lasers, const LogPlan& p
   if (pairs.empty()) return plan.evidence;
   pairs = with_echoes_of_others(lasers, plan, std::move(pairs));
   return matching::weigh_log(
-      pairs, assumed_beams(lasers, plan, fallback_field_of_view_rad),
+      pairs, assumed_beams(lasers, plan, pairs.front().first.size(), fallback_field_of_view_rad),
       chosen_odometry_lines().pose_changes ? chosen_odometry_lines().check : lasers.odometry_check,
       plan.evidence.correction.range_unit_m);
 }
@@ -561,8 +560,7 @@ std::vector<sensing::ScanMark> CarmenSurvey::scan_marks(const Lasers& lasers,
                      lasers.pose_changes ? lasers.poses[i].wheel_from_base : of_lines[i]);
   };
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    if (clock != LogClock::kNominal)
-      marks[i].stamp_ns = clock == LogClock::kIpc ? lasers.ipc_ns[i] : lasers.logger_ns[i];
+    if (clock != LogClock::kNominal) marks[i].stamp_ns = lasers.stamps_ns(clock)[i];
     if (i == 0) continue;
     marks[i].way_m = distance_m(pose(i - 1), pose(i));
     marks[i].turn_rad =
@@ -571,15 +569,13 @@ std::vector<sensing::ScanMark> CarmenSurvey::scan_marks(const Lasers& lasers,
   return marks;
 }
 
-/// Chooses a faultless clock, ipc before logger; otherwise one that can be repaired; otherwise
-/// derives time from the way.
 std::optional<LogClock> CarmenSurvey::clock_of_disordered_scans() const {
   constexpr double kFewLate = 0.02;
   for (const Lasers& lasers : lasers_) {
     for (const LogClock clock : {LogClock::kIpc, LogClock::kLogger}) {
       std::vector<std::int64_t> stamps_ns;
       std::size_t late = 0;
-      for (const auto& stamp_ns : clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns) {
+      for (const auto& stamp_ns : lasers.stamps_ns(clock)) {
         if (!stamp_ns) continue;
         late += !stamps_ns.empty() && *stamp_ns < stamps_ns.back() ? 1 : 0;
         stamps_ns.push_back(*stamp_ns);
@@ -592,6 +588,8 @@ std::optional<LogClock> CarmenSurvey::clock_of_disordered_scans() const {
   return std::nullopt;
 }
 
+/// Chooses a faultless clock, ipc before logger; otherwise one that can be repaired; otherwise
+/// derives time from the way.
 void CarmenSurvey::choose_clock(const Lasers& lasers, LogPlan& plan) const {
   plan.clock = LogClock::kNominal;
   if (lasers.scans == 0) return;

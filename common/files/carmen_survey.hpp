@@ -267,6 +267,10 @@ class CarmenSurvey {
         250.0, 0.12, std::numeric_limits<double>::infinity()};  // of odometry in millimetres
     PairSample turned_pairs{1.2, 0.05, 1.2};                    // of a vehicle that seldom turns
     matching::TimingPairs timing_pairs;
+
+    const std::vector<std::optional<std::int64_t>>& stamps_ns(LogClock clock) const {
+      return clock == LogClock::kIpc ? ipc_ns : logger_ns;
+    }
   };
 
   void add_laser(const LaserRecord& record);
@@ -295,6 +299,10 @@ class CarmenSurvey {
     std::vector<geometry::Pose2> poses;
     std::vector<std::optional<std::int64_t>> ipc_ns;
     std::vector<std::optional<std::int64_t>> logger_ns;
+
+    const std::vector<std::optional<std::int64_t>>& stamps_ns(LogClock clock) const {
+      return clock == LogClock::kIpc ? ipc_ns : logger_ns;
+    }
   };
 
   Lasers& lasers_of(const LaserRecord& record);
@@ -314,16 +322,16 @@ class CarmenSurvey {
   std::vector<sensing::Odometry> odometry_of_lines(const LogPlan& plan) const;
   std::vector<sensing::Odometry> odometry_of(const Lasers& lasers, const LogPlan& plan) const;
   double odometry_lateness_s(const Lasers& lasers, const LogPlan& plan,
-                             const matching::AssumedBeams& beams) const;
+                             double fallback_field_of_view_rad) const;
   static double fine_odometry_lateness_s(const Lasers& lasers, const LogPlan& plan,
-                                         const matching::AssumedBeams& beams,
+                                         double fallback_field_of_view_rad,
                                          std::span<const double> scan_times_s,
                                          std::span<const matching::TimedPose> of_base,
                                          double roughly_s);
   static std::vector<matching::ScanPair> with_echoes_of_others(
       const Lasers& lasers, const LogPlan& plan, std::vector<matching::ScanPair> pairs);
   static matching::AssumedBeams assumed_beams(const Lasers& lasers, const LogPlan& plan,
-                                              double fallback_field_of_view_rad);
+                                              std::size_t beams, double fallback_field_of_view_rad);
   void treat_poor_odometry(const Lasers& lasers, LogPlan& plan) const;
   void remove_noise_of_odometry_stamps(LogPlan& plan) const;
   matching::LogEvidence weigh(const Lasers& lasers, const LogPlan& plan,

@@ -47,7 +47,7 @@ bool CarmenSurvey::AgreementCheck::agrees() const {
 std::vector<std::int64_t> CarmenSurvey::scan_stamps_ns(const Lasers& lasers, const LogPlan& plan) {
   if (!plan.times.stamps_ns.empty()) return plan.times.stamps_ns;
   std::vector<std::int64_t> stamps_ns;
-  for (const auto& stamp_ns : plan.clock == LogClock::kIpc ? lasers.ipc_ns : lasers.logger_ns) {
+  for (const auto& stamp_ns : lasers.stamps_ns(plan.clock)) {
     if (!stamp_ns) return {};
     stamps_ns.push_back(*stamp_ns);
   }
@@ -71,7 +71,7 @@ std::vector<sensing::Odometry> CarmenSurvey::odometry_of_scans(const Lasers& las
 /// The same of ODOM lines.
 std::vector<sensing::Odometry> CarmenSurvey::odometry_of_lines(const LogPlan& plan) const {
   const OdometryLines& lines = chosen_odometry_lines();
-  const auto& recorded_ns = plan.clock == LogClock::kIpc ? lines.ipc_ns : lines.logger_ns;
+  const auto& recorded_ns = lines.stamps_ns(plan.clock);
   std::vector<sensing::Odometry> odometry;
   for (std::size_t i = 0; i < lines.poses.size(); ++i) {
     const auto stamp_ns = plan.odometry_stamps_ns.empty()
@@ -92,7 +92,7 @@ std::vector<sensing::Odometry> CarmenSurvey::odometry_of(const Lasers& lasers,
 
 /// Of odometry that has the clock of the scans.
 double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& plan,
-                                         const matching::AssumedBeams& beams) const {
+                                         double fallback_field_of_view_rad) const {
   const bool has_clock =
       plan.clock != LogClock::kNominal && !plan.is_timed_by_order() && !plan.first_scan_is_ahead;
   if (!has_clock || plan.odometry == OdometrySource::kNone) return 0.0;
@@ -114,13 +114,14 @@ double CarmenSurvey::odometry_lateness_s(const Lasers& lasers, const LogPlan& pl
   const double roughly_s =
       matching::odometry_lateness_s(plan.evidence.motions, scan_times_s, odometry,
                                     {plan.evidence.way_scale, plan.evidence.turn_scale});
-  return fine_odometry_lateness_s(lasers, plan, beams, scan_times_s, of_base, roughly_s);
+  return fine_odometry_lateness_s(lasers, plan, fallback_field_of_view_rad, scan_times_s, of_base,
+                                  roughly_s);
 }
 
 /// Of a scanner that sweeps, odometry seems late by half of the sweep: the scan is stamped at its
 /// first beam. Whether it sweeps is not known yet.
 double CarmenSurvey::fine_odometry_lateness_s(const Lasers& lasers, const LogPlan& plan,
-                                              const matching::AssumedBeams& beams,
+                                              double fallback_field_of_view_rad,
                                               std::span<const double> scan_times_s,
                                               std::span<const matching::TimedPose> of_base,
                                               double roughly_s) {
@@ -137,11 +138,14 @@ double CarmenSurvey::fine_odometry_lateness_s(const Lasers& lasers, const LogPla
   if (!is_as_stated || !is_dense || scan_times_s.size() < 2) return roughly_s;
   const std::vector<matching::ScanPair> pairs =
       with_echoes_of_others(lasers, plan, lasers.timing_pairs.pairs());
+  if (pairs.empty()) return roughly_s;
+  const std::size_t beam_count = pairs.front().first.size();
+  const matching::AssumedBeams beams =
+      assumed_beams(lasers, plan, beam_count, fallback_field_of_view_rad);
   const auto found = matching::odometry_timing(pairs, beams, correction.range_unit_m, scan_times_s,
                                                of_base, roughly_s);
   if (!found || found->sigma_s > kMostSigma_s) return roughly_s;
-  const double swept_rad = std::abs(beams.beam_step_rad) *
-                           static_cast<double>(pairs.empty() ? 0 : pairs.front().first.size());
+  const double swept_rad = std::abs(beams.beam_step_rad) * static_cast<double>(beam_count);
   const double period_s =
       (scan_times_s.back() - scan_times_s.front()) / static_cast<double>(scan_times_s.size());
   const double half_sweep_s =
@@ -198,7 +202,7 @@ void CarmenSurvey::remove_noise_of_odometry_stamps(LogPlan& plan) const {
   if (!uses_lines || plan.clock == LogClock::kNominal || plan.is_timed_by_order()) return;
   const OdometryLines& lines = chosen_odometry_lines();
   std::vector<std::int64_t> stamps_ns;
-  for (const auto& stamp_ns : plan.clock == LogClock::kIpc ? lines.ipc_ns : lines.logger_ns) {
+  for (const auto& stamp_ns : lines.stamps_ns(plan.clock)) {
     if (!stamp_ns) return;
     stamps_ns.push_back(*stamp_ns);
   }

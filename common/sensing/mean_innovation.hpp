@@ -11,8 +11,6 @@ class MeanInnovation {
  public:
   /// sigmas: of one scan, by what was expected. error: of the quantity that is in doubt.
   void add(double sigmas, double error) {
-    constexpr double kMost = 66.0;       // as many scans as an exponential mean of this gain
-    constexpr double kLeastGain = 0.03;  // counts
     scans_ = std::min(scans_ + 1.0, kMost);
     const double gain = std::max(1.0 / scans_, kLeastGain);
     sigmas_ += gain * (sigmas - sigmas_);
@@ -29,7 +27,17 @@ class MeanInnovation {
     return squared_error;
   }
 
+  /// Whether a state that was read can have been one.
+  bool is_sound() const {
+    return scans_ >= 0.0 && scans_ <= kMost && std::isfinite(sigmas_) &&
+           std::abs(error_) < kLargest;
+  }
+
  private:
+  static constexpr double kMost = 66.0;       // as many scans as an exponential mean of this gain
+  static constexpr double kLeastGain = 0.03;  // counts
+  static constexpr double kLargest = 1e6;
+
   double scans_ = 0.0;
   double sigmas_ = 0.0;
   double error_ = 0.0;

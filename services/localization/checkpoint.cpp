@@ -199,11 +199,13 @@ bool is_sound(const SubmapSequence::State& submaps) {
 bool is_sound(const Checkpoint& checkpoint) {
   return is_sound(checkpoint.prediction.estimate) &&
          is_sound(checkpoint.prediction.with_stamp_offset) &&
-         is_sound(checkpoint.prediction.with_pivot) && is_sound(*checkpoint.prediction.last) &&
-         is_sound(checkpoint.prediction.belief) && is_sound(checkpoint.keyframes) &&
-         is_sound(checkpoint.monitor) && is_sound(checkpoint.covariance) &&
-         is_sound(checkpoint.submaps) && std::isfinite(checkpoint.sweep_factor.value) &&
-         checkpoint.sweep_factor.variance >= 0.0 &&
+         is_sound(checkpoint.prediction.with_pivot) &&
+         checkpoint.prediction.innovations.turns.is_sound() &&
+         checkpoint.prediction.innovations.ways.is_sound() &&
+         is_sound(*checkpoint.prediction.last) && is_sound(checkpoint.prediction.belief) &&
+         is_sound(checkpoint.keyframes) && is_sound(checkpoint.monitor) &&
+         is_sound(checkpoint.covariance) && is_sound(checkpoint.submaps) &&
+         std::isfinite(checkpoint.sweep_factor.value) && checkpoint.sweep_factor.variance >= 0.0 &&
          std::ranges::all_of(checkpoint.odometry, [](const sensing::Odometry& sample) {
            return is_believable(sample.wheel_from_base);
          });

@@ -1,5 +1,6 @@
 #include "common/sensing/mean_innovation.hpp"
 
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -47,6 +48,18 @@ TEST(MeanInnovation, IsNotToldByAFewScans) {
   }
   mean.add(10.0, 1.0);
   EXPECT_NEAR(mean.take_consistent(kNoiseSigmas), 1.0, 1e-9);
+}
+
+TEST(MeanInnovation, IsNotSoundWithWhatNoFilterSays) {
+  MeanInnovation mean;
+  EXPECT_TRUE(mean.is_sound());
+  mean.add(0.5, -0.1);
+  EXPECT_TRUE(mean.is_sound());
+  MeanInnovation endless = mean;
+  endless.add(0.0, 1e300);
+  EXPECT_FALSE(endless.is_sound());
+  mean.add(std::numeric_limits<double>::quiet_NaN(), 0.0);
+  EXPECT_FALSE(mean.is_sound());
 }
 
 }  // namespace
