@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "common/geometry/order_statistics.hpp"
 #include "common/geometry/segment.hpp"
 
 namespace slammot::city_model {
@@ -58,13 +59,6 @@ class SurfaceIndex {
   std::map<Cell, std::vector<const TrueSurface*>> tiles_;
 };
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 ModelAccuracy judge(const CityModel& model, const ModelTruth& truth) {
@@ -97,7 +91,7 @@ ModelAccuracy judge(const CityModel& model, const ModelTruth& truth) {
   accuracy.point_distance_m = metrics::summarize(std::move(distances_m));
   accuracy.astray_share = share(astray);
   accuracy.wall_top_error_m = metrics::summarize(std::move(absolute_m));
-  accuracy.wall_top_bias_m = median(std::move(tops_m));
+  accuracy.wall_top_bias_m = geometry::upper_median(std::move(tops_m));
   accuracy.residue_share =
       share(static_cast<std::size_t>(std::ranges::count(truth.is_of_mover, std::uint8_t{1})));
   return accuracy;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "common/geometry/order_statistics.hpp"
 #include "common/graphs/absolute_priors.hpp"
 #include "common/graphs/place_of_map.hpp"
 
@@ -21,12 +22,6 @@ constexpr double kMedianOfChi2 = 1.3863;  // 2 degrees of freedom
 constexpr double kMedianOfChi1 = 0.4549;  // 1 degree of freedom
 constexpr double kCommonError_m = 1.0;    // of all fixes of a drive: ionosphere, orbits
 constexpr double kBiasSigma_rad = 0.05;   // of a compass that nothing calibrates
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 std::map<flow::SubmapId, Pose2> by_id(const std::vector<flow::CorrectedSubmap>& nodes) {
   std::map<flow::SubmapId, Pose2> poses;
@@ -50,7 +45,7 @@ std::vector<Fix> fixes_of(const std::map<flow::SubmapId, Pose2>& nodes,
 /// true.
 PriorAgreement agreement_of(const std::vector<double>& squared, double true_median) {
   PriorAgreement agreement;
-  agreement.scale = std::max(1.0, std::sqrt(median_of(squared) / true_median));
+  agreement.scale = std::max(1.0, std::sqrt(geometry::upper_median(squared) / true_median));
   const double limit = kOutlierSigmas * kOutlierSigmas * agreement.scale * agreement.scale;
   for (const double error : squared) agreement.is_inlier.push_back(error <= limit);
   return agreement;
@@ -138,7 +133,8 @@ double least_median_direction(const std::vector<double>& directions_rad,
   double best_rad = 0.0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < directions_rad.size(); i += stride) {
-    const double median = median_of(squared_errors(directions_rad, directions_rad[i], priors));
+    const double median =
+        geometry::upper_median(squared_errors(directions_rad, directions_rad[i], priors));
     if (median >= least) continue;
     least = median;
     best_rad = directions_rad[i];

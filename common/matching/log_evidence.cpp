@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "common/geometry/order_statistics.hpp"
 #include "common/matching/correlative.hpp"
 #include "common/matching/odometry_point.hpp"
 #include "common/matching/pair_registration.hpp"
@@ -28,13 +29,6 @@ constexpr double kStraightRad = 0.12;
 constexpr double kMovingM = 0.15;
 constexpr double kArcsSeen = 0.1;
 constexpr double kEitherWay = -0.5;
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// A pair of scans with its motion by odometry and by scans.
 struct MatchedPair {
@@ -172,7 +166,7 @@ double turn_scale(const std::vector<MatchedPair>& turning_pairs) {
   scales.reserve(turning_pairs.size());
   for (const MatchedPair& pair : turning_pairs)
     scales.push_back(pair.by_scans.heading_rad / pair.by_odometry.heading_rad);
-  return scales.size() < kFewestPairs ? 0.0 : median_of(std::move(scales));
+  return scales.size() < kFewestPairs ? 0.0 : geometry::upper_median(std::move(scales));
 }
 
 /// Whichever scale is nearer to 1: of the pairs that turn by odometry or of those that turn by
@@ -208,7 +202,7 @@ double way_scale(const std::vector<MatchedPair>& straight_pairs) {
   for (const MatchedPair& pair : straight_pairs)
     scales.push_back(pair.by_scans.translation_m().norm() /
                      pair.by_odometry.translation_m().norm());
-  return scales.size() < kFewestPairs ? 0.0 : median_of(std::move(scales));
+  return scales.size() < kFewestPairs ? 0.0 : geometry::upper_median(std::move(scales));
 }
 
 /// Mean of exp(i (direction by odometry - direction by scans)) over straight pairs.

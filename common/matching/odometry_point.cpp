@@ -7,6 +7,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "common/geometry/order_statistics.hpp"
+
 namespace slammot::matching {
 namespace {
 
@@ -38,12 +40,6 @@ std::vector<PairEquations> equations_of(std::span<const PairMotion> motions) {
   return equations;
 }
 
-double middle_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 std::optional<OdometryPoint> odometry_point(std::span<const PairMotion> motions) {
@@ -69,7 +65,7 @@ std::optional<OdometryPoint> odometry_point(std::span<const PairMotion> motions)
     covariance = solver.solve(Eigen::Matrix4d::Identity());
     for (std::size_t i = 0; i < equations.size(); ++i)
       residuals_m[i] = (equations[i].of_unknowns * solution - equations[i].right).norm();
-    scale_m = std::max(middle_of(residuals_m), kLeastResidual_m);
+    scale_m = std::max(geometry::upper_median(residuals_m), kLeastResidual_m);
   }
   const double way = solution.tail<2>().norm();
   const Eigen::Vector4d sigma = scale_m * covariance.diagonal().cwiseSqrt();

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "common/geometry/order_statistics.hpp"
+
 namespace slammot::matching {
 namespace {
 
@@ -68,10 +70,7 @@ WallBend wall_bend(std::span<const std::vector<float>> scans, double first_beam_
   std::vector<double> bends;
   for (const std::vector<float>& ranges_m : scans)
     add_bends(ranges_m, first_beam_rad, step_rad, bends);
-  if (bends.empty()) return {};
-  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
-  std::ranges::nth_element(bends, middle);
-  return {*middle, bends.size()};
+  return {geometry::upper_median_in_place(bends), bends.size()};
 }
 
 }  // namespace slammot::matching

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/geometry/order_statistics.hpp"
+
 namespace slammot::sensing {
 
 void HeldPoses::add(const geometry::Pose2& wheel_from_base) {
@@ -61,9 +63,7 @@ double forward_noise_m(std::span<const Odometry> samples) {
     changes_m.push_back(duration_s * std::max(0.0, change_mps - kAcceleration_mps2 * between_s));
   }
   if (changes_m.size() < kFewestSteps) return 0.0;
-  const auto middle = changes_m.begin() + static_cast<std::ptrdiff_t>(changes_m.size() / 2);
-  std::ranges::nth_element(changes_m, middle);
-  return *middle;
+  return geometry::upper_median_in_place(changes_m);
 }
 
 }  // namespace slammot::sensing

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/geometry/order_statistics.hpp"
+
 namespace slammot::sensing {
 namespace {
 
@@ -29,9 +31,7 @@ double tolerance_of(double reading, double unit_m) {
 
 Usual usual_of(std::vector<float>& readings, std::size_t views, double unit_m) {
   if (readings.empty()) return {};
-  const auto middle = readings.begin() + static_cast<std::ptrdiff_t>(readings.size() / 2);
-  std::nth_element(readings.begin(), middle, readings.end());
-  const double reading = static_cast<double>(*middle);
+  const double reading = static_cast<double>(geometry::upper_median_in_place(readings));
   const auto near = std::ranges::count_if(readings, [&](float one) {
     return std::abs(static_cast<double>(one) - reading) <= tolerance_of(reading, unit_m);
   });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/geometry/order_statistics.hpp"
 #include "common/sensing/steady_stamps.hpp"
 
 namespace slammot::sensing {
@@ -50,28 +51,11 @@ double share_of(const Values& values, Predicate is_counted) {
          static_cast<double>(values.size());
 }
 
-template <typename Value>
-Value median_of(std::vector<Value> values) {
-  if (values.empty()) return Value{};
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Quantile of the values at this share; 0 for none.
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto nth =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
 /// Of the steps that advance; 0 if none does.
 std::int64_t median_advance_ns(const Stamps& stamps) {
   Stamps advances = steps_of(stamps);
   std::erase_if(advances, [](std::int64_t step_ns) { return step_ns <= 0; });
-  return median_of(std::move(advances));
+  return geometry::upper_median(std::move(advances));
 }
 
 bool is_constant(const Stamps& stamps) {
@@ -172,7 +156,7 @@ bool is_coarse(const Stamps& stamps, std::int64_t quantum) {
   const double period_ns =
       static_cast<double>(stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
   const Stamps steps = steps_of(stamps);
-  const std::int64_t median_ns = median_of(steps);
+  const std::int64_t median_ns = geometry::upper_median(steps);
   const bool is_steady = median_ns > 0 && share_of(steps, [=](std::int64_t step) {
                                             return step == median_ns;
                                           }) >= kSteadyShare;
@@ -190,7 +174,7 @@ std::vector<double> ways_of(std::span<const ScanMark> scans) {
 /// Relative time for the way to each scan; 1 if the vehicle hardly moves.
 std::vector<double> weights_by_way(std::span<const ScanMark> scans) {
   std::vector<double> ways = ways_of(scans);
-  const double usual = median_of(ways);
+  const double usual = geometry::upper_median(ways);
   if (!(usual > 0.0)) return std::vector<double>(scans.size(), 1.0);
   for (double& way : ways) way = std::clamp(way / usual, 0.2, 5.0);
   return ways;
@@ -208,12 +192,12 @@ double unevenness(const Stamps& stamps, const std::vector<double>& weights, std:
     weight = 0.0;
     begin = i;
   }
-  const double middle = median_of(seconds_per_weight);
+  const double middle = geometry::upper_median(seconds_per_weight);
   if (!(middle > 0.0)) return 0.0;
   std::vector<double> deviations;
   for (const double each : seconds_per_weight)
     deviations.push_back(std::abs(each - middle) / middle);
-  return median_of(std::move(deviations));
+  return geometry::upper_median(std::move(deviations));
 }
 
 /// Position within each run of equal stamps, by weight, as a first guess.
@@ -428,7 +412,7 @@ bool comes_by_time(std::span<const ScanMark> scans) {
   constexpr double kShortShare = 0.02;
   if (scans.size() < kFewestJudged) return false;
   std::vector<double> ways = ways_of(scans.subspan(1));
-  const double long_way = percentile(ways, 0.9);
+  const double long_way = geometry::lower_quantile(ways, 0.9);
   return long_way > 0.0 &&
          share_of(ways, [&](double way) { return way < kShort * long_way; }) >= kShortShare;
 }
@@ -438,7 +422,8 @@ bool may_count_seconds(std::span<const ScanMark> scans, const WayPace& pace) {
   const double period_s = 1e-9 *
                           static_cast<double>(*scans.back().stamp_ns - *scans.front().stamp_ns) /
                           static_cast<double>(scans.size() - 1);
-  return period_s >= 1.0 && percentile(ways_of(scans.subspan(1)), 0.9) >= pace.speed_mps * period_s;
+  return period_s >= 1.0 &&
+         geometry::lower_quantile(ways_of(scans.subspan(1)), 0.9) >= pace.speed_mps * period_s;
 }
 
 std::vector<std::int64_t> stamps_from_way(std::span<const ScanMark> scans, const WayPace& pace) {
@@ -450,7 +435,7 @@ std::vector<std::int64_t> stamps_from_way(std::span<const ScanMark> scans, const
     periods_s.push_back(
         std::max(scan.way_m / pace.speed_mps, scan.turn_rad / pace.turn_rate_radps));
   if (comes_by_time(scans)) {
-    const double period_s = std::clamp(percentile(periods_s, 0.9) / kTopSpeedPerPace,
+    const double period_s = std::clamp(geometry::lower_quantile(periods_s, 0.9) / kTopSpeedPerPace,
                                        kShortestSteadyPeriodS, kLongestSteadyPeriodS);
     return evenly_spaced(scans.size(), period_s);
   }

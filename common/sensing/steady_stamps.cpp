@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "common/geometry/order_statistics.hpp"
+
 namespace slammot::sensing {
 namespace {
 
@@ -22,12 +24,6 @@ constexpr double kMostAddedUp = 2.0;  // RMS of the changes over so many scans b
 constexpr double kTrimSigmas = 2.5;
 constexpr std::int64_t kLeastStepNs = 1'000;
 
-double middle_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Median of the differences over many scans, in which noise counts little and a missing scan does
 /// not count.
 double period_of(std::span<const std::int64_t> stamps_ns) {
@@ -35,7 +31,7 @@ double period_of(std::span<const std::int64_t> stamps_ns) {
   std::vector<double> periods_s;
   for (std::size_t i = kScans; i < stamps_ns.size(); ++i)
     periods_s.push_back(1e-9 * static_cast<double>(stamps_ns[i] - stamps_ns[i - kScans]) / kScans);
-  return middle_of(periods_s);
+  return geometry::upper_median_in_place(periods_s);
 }
 
 /// Stamps less the periods since the first [s].
@@ -60,7 +56,7 @@ std::vector<double> running_median(const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::span<const double> near = around(values, i);
     window.assign(near.begin(), near.end());
-    medians.push_back(middle_of(window));
+    medians.push_back(geometry::upper_median_in_place(window));
   }
   return medians;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/files/text.hpp"
+#include "common/geometry/order_statistics.hpp"
 
 namespace slammot::evaluator {
 namespace {
@@ -17,17 +18,11 @@ double sigma_m(const metrics::UncertainStampedPose& pose) {
   return std::sqrt(std::max({0.0, P(0, 0), P(1, 1)}));
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 void add_unsure(const RunResult& result, std::vector<Doubt>& doubts) {
   std::vector<double> sigmas_m;
   for (const auto& pose : result.uncertain) sigmas_m.push_back(sigma_m(pose));
   if (sigmas_m.empty()) return;
-  const double limit_m = std::max(kLeastSigmaM, kTimesMedian * median_of(sigmas_m));
+  const double limit_m = std::max(kLeastSigmaM, kTimesMedian * geometry::upper_median(sigmas_m));
   double most_m = 0.0;
   bool is_open = false;
   for (std::size_t i = 0; i < sigmas_m.size(); ++i) {

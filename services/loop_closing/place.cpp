@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/geometry/order_statistics.hpp"
+
 namespace slammot::loop_closing {
 namespace {
 
@@ -77,10 +79,8 @@ std::optional<geometry::Geodetic> median_fix(const std::vector<flow::SubmapFix>&
     latitudes_deg.push_back(fix.position.latitude_deg);
     longitudes_deg.push_back(fix.position.longitude_deg);
   }
-  const auto middle = static_cast<std::ptrdiff_t>(fixes.size() / 2);
-  std::ranges::nth_element(latitudes_deg, latitudes_deg.begin() + middle);
-  std::ranges::nth_element(longitudes_deg, longitudes_deg.begin() + middle);
-  return geometry::Geodetic{latitudes_deg[fixes.size() / 2], longitudes_deg[fixes.size() / 2]};
+  return geometry::Geodetic{geometry::upper_median_in_place(latitudes_deg),
+                            geometry::upper_median_in_place(longitudes_deg)};
 }
 
 void count(CellState state, Agreement& agreement) {
