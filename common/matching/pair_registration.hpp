@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 
 #include "common/geometry/uncertain_pose2.hpp"
-#include "common/matching/log_evidence.hpp"
 #include "common/matching/point_to_line.hpp"
+#include "common/matching/scan_pair.hpp"
 
 namespace slammot::matching {
 
