@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/files/carmen_survey.hpp"
+#include "common/files/log_plan.hpp"
 
 namespace slammot::files {
 

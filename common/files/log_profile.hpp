@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "common/files/carmen_survey.hpp"
+#include "common/files/log_plan.hpp"
 
 namespace slammot::files {
 

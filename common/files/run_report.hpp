@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/files/carmen_log.hpp"
-#include "common/files/carmen_survey.hpp"
+#include "common/files/log_plan.hpp"
 #include "common/files/run_record.hpp"
 #include "common/files/street_findings.hpp"
 #include "common/sensing/gyro_odometry.hpp"

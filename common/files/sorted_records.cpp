@@ -3,7 +3,7 @@
 #include <utility>
 #include <variant>
 
-#include "common/files/carmen_survey.hpp"
+#include "common/files/log_plan.hpp"
 
 namespace slammot::files {
 namespace {
