@@ -226,8 +226,8 @@ void BagLog::look_at_odometry(const bags::RawMessage& message) {
     topic->parent_frame = odometry->header.frame;
   }
   ++topic->candidate.messages;
-  const StampedPose pose{message.log_time_ns, odometry->header.stamp_ns, index_,
-                         planar(odometry->pose)};
+  const BagPose pose{{message.log_time_ns, odometry->header.stamp_ns, index_},
+                     planar(odometry->pose)};
   topic->moves =
       topic->moves ||
       (!topic->poses.empty() && differ(topic->poses.front().wheel_from_base, pose.wheel_from_base));
@@ -256,10 +256,14 @@ std::optional<Error> BagLog::choose(const std::filesystem::path& path) {
   }
   choose_scanners(*main);
   const std::string laser_frame = scan_topics_[*main].candidate.frame;
-  if (auto fault = choose_odometry(path, laser_frame)) return fault;
+  auto odometry = choose_odometry(path, laser_frame);
+  if (!odometry) return odometry.error();
   const std::string base = base_frame(laser_frame);
   for (ScanTopic& topic : scan_topics_) mount(topic, base);
-  sort_odometry();
+  if (!odometry->empty()) {
+    const BagOdometry::Clock clock = common_clock(*odometry);
+    odometry_ = {std::move(*odometry), clock};
+  }
   list_candidates();
   return std::nullopt;
 }
@@ -321,10 +325,10 @@ void BagLog::choose_scanners(std::size_t main) {
   }
 }
 
-std::optional<Error> BagLog::choose_odometry(const std::filesystem::path& path,
-                                             const std::string& laser_frame) {
+Result<std::vector<BagPose>> BagLog::choose_odometry(const std::filesystem::path& path,
+                                                     const std::string& laser_frame) {
   const std::string& asked_for = options_.topics.odometry_topic;
-  if (asked_for == "none") return std::nullopt;
+  if (asked_for == "none") return std::vector<BagPose>();
   const auto worth = [&](const OdometryTopic& topic) {
     const bool is_fixed_to_laser = frames_.fixed(topic.candidate.frame, laser_frame).has_value();
     return std::tuple(topic.moves, !is_no_wheel_odometry(topic.candidate.topic, topic.parent_frame),
@@ -340,18 +344,19 @@ std::optional<Error> BagLog::choose_odometry(const std::filesystem::path& path,
     return Error{path.string() + ": no odometry of the topic " + asked_for};
   const bool is_wheels = best != nullptr && best->moves &&
                          !is_no_wheel_odometry(best->candidate.topic, best->parent_frame);
-  if (is_tf_asked_for || (asked_for.empty() && !is_wheels))
-    take_transforms_as_odometry(laser_frame);
-  if (!odometry_.empty() || best == nullptr) return std::nullopt;
+  if (is_tf_asked_for || (asked_for.empty() && !is_wheels)) {
+    std::vector<BagPose> transforms = transforms_as_odometry(laser_frame);
+    if (!transforms.empty()) return transforms;
+  }
+  if (best == nullptr) return std::vector<BagPose>();
   best->candidate.is_chosen = true;
-  odometry_ = best->poses;
-  return std::nullopt;
+  return best->poses;
 }
 
-/// First moving frame above the laser: odom above base_link.
-void BagLog::take_transforms_as_odometry(const std::string& laser_frame) {
+/// First moving frame above the laser: odom above base_link. Empty if there is none.
+std::vector<BagPose> BagLog::transforms_as_odometry(const std::string& laser_frame) {
   const bags::FrameTree::Edge* const edge = frames_.first_moving_above(laser_frame);
-  if (edge == nullptr || is_no_wheel_odometry({}, edge->parent)) return;
+  if (edge == nullptr || is_no_wheel_odometry({}, edge->parent)) return {};
   OdometryTopic topic;
   topic.candidate.topic = "/tf";
   topic.candidate.type = "transforms of " + edge->child + " in " + edge->parent;
@@ -361,10 +366,9 @@ void BagLog::take_transforms_as_odometry(const std::string& laser_frame) {
   topic.moves = true;
   topic.parent_frame = edge->parent;
   for (const auto& pose : edge->poses)
-    odometry_.push_back(
-        {pose.log_time_ns, pose.stamp_ns, pose.index, planar(pose.parent_from_child)});
-  topic.poses = odometry_;
-  odometry_topics_.push_back(std::move(topic));
+    topic.poses.push_back(
+        {{pose.log_time_ns, pose.stamp_ns, pose.index}, planar(pose.parent_from_child)});
+  return odometry_topics_.emplace_back(std::move(topic)).poses;
 }
 
 /// The child frame of odometry; without odometry the frame to which the laser is fixed, by its
@@ -425,8 +429,8 @@ void BagLog::list_candidates() {
                            [&](const auto& a, const auto& b) { return slot_of(a) < slot_of(b); });
   for (OdometryTopic& topic : odometry_topics_) {
     if (!topic.poses.empty())
-      topic.candidate.rate_hz = rate_hz(topic.poses.size(), topic.poses.front().log_time_ns,
-                                        topic.poses.back().log_time_ns);
+      topic.candidate.rate_hz = rate_hz(topic.poses.size(), topic.poses.front().times.log_time_ns,
+                                        topic.poses.back().times.log_time_ns);
     if (!topic.moves) topic.candidate.note = "never moves";
     else if (is_no_wheel_odometry(topic.candidate.topic, topic.parent_frame))
       topic.candidate.note = "not of wheels by its name or frame";
@@ -478,84 +482,28 @@ std::optional<BagLog::Scan> BagLog::next_scan() {
   return std::nullopt;
 }
 
-std::int64_t BagLog::time_of(const Scan& scan) const {
-  if (clock_ == CommonClock::kOrder) return scan.index;
-  return clock_ == CommonClock::kHeaders ? scan.record.stamps.ipc_ns.value_or(0) : scan.log_time_ns;
-}
-
-std::int64_t BagLog::time_of(const StampedPose& pose) const {
-  if (clock_ == CommonClock::kOrder) return pose.index;
-  return clock_ == CommonClock::kHeaders ? pose.stamp_ns : pose.log_time_ns;
-}
-
 /// Header stamps, if those of the scans advance and those of odometry are within the same hour.
 /// Otherwise the time of recording, or the order in the bag if that does not advance either.
-void BagLog::sort_odometry() {
+BagOdometry::Clock BagLog::common_clock(const std::vector<BagPose>& poses) const {
   constexpr double kAdvancingShare = 0.9;
   constexpr std::int64_t kSameHour_ns = 3'600'000'000'000;
-  if (odometry_.empty()) return;
   const auto main = std::ranges::find(scan_topics_, std::uint8_t{1}, &ScanTopic::slot);
   const auto advances = [&](std::uint64_t advancing) {
     return static_cast<double>(advancing + 1) >=
            kAdvancingShare * static_cast<double>(main->candidate.messages);
   };
-  const bool is_common =
-      std::abs(odometry_[odometry_.size() / 2].stamp_ns - main->newest_stamp_ns) <
-      kSameHour_ns + (main->last_ns - main->first_ns);
-  if (advances(main->advancing) && is_common) clock_ = CommonClock::kHeaders;
-  else clock_ = advances(main->log_advancing) ? CommonClock::kRecording : CommonClock::kOrder;
-  odometry_by_time_ = odometry_;
-  std::ranges::stable_sort(odometry_by_time_, {},
-                           [this](const StampedPose& pose) { return time_of(pose); });
-  std::int64_t newest_ns = 0;
-  for (StampedPose& pose : odometry_)
-    pose.log_time_ns = newest_ns = std::max(newest_ns, pose.log_time_ns);
-}
-
-/// Odometry at exactly the scan's stamp: the last one before it in the bag. With the bag's order,
-/// the one before it.
-const BagLog::StampedPose* BagLog::pose_of(const Scan& scan) const {
-  const std::int64_t time = time_of(scan);
-  const auto by_time = [this](const StampedPose& pose) { return time_of(pose); };
-  const auto first = std::ranges::lower_bound(odometry_by_time_, time, {}, by_time);
-  if (clock_ == CommonClock::kOrder)
-    return first == odometry_by_time_.begin() ? nullptr : &*(first - 1);
-  const StampedPose* best = nullptr;
-  for (auto pose = first; pose != odometry_by_time_.end() && time_of(*pose) == time; ++pose) {
-    if (best == nullptr || pose->index < scan.index) best = &*pose;
-  }
-  return best;
-}
-
-/// Interpolated odometry if there is none at the stamp.
-geometry::Pose2 BagLog::wheel_from_base_at(const Scan& scan) const {
-  if (odometry_by_time_.empty()) return geometry::Pose2::identity();
-  if (const StampedPose* const pose = pose_of(scan)) return pose->wheel_from_base;
-  const std::int64_t time = time_of(scan);
-  const auto after = std::ranges::lower_bound(
-      odometry_by_time_, time, {}, [this](const StampedPose& pose) { return time_of(pose); });
-  if (after == odometry_by_time_.end()) return odometry_by_time_.back().wheel_from_base;
-  if (after == odometry_by_time_.begin()) return after->wheel_from_base;
-  const StampedPose& before = *(after - 1);
-  const double fraction = static_cast<double>(time - time_of(before)) /
-                          static_cast<double>(time_of(*after) - time_of(before));
-  return geometry::interpolate(before.wheel_from_base, after->wheel_from_base, fraction);
-}
-
-bool BagLog::comes_before(const StampedPose& pose, const Scan& scan) const {
-  if (clock_ == CommonClock::kOrder) return pose.index < scan.index;
-  return pose.log_time_ns <= scan.log_time_ns;
+  const bool is_common = std::abs(poses[poses.size() / 2].times.stamp_ns - main->newest_stamp_ns) <
+                         kSameHour_ns + (main->last_ns - main->first_ns);
+  if (advances(main->advancing) && is_common) return BagOdometry::Clock::kHeaders;
+  return advances(main->log_advancing) ? BagOdometry::Clock::kRecording
+                                       : BagOdometry::Clock::kOrder;
 }
 
 /// The next scan in order, with its pose.
 CarmenRecord BagLog::finished(Scan scan) {
-  constexpr std::size_t kRemembered = 64;
   const ScanTopic& topic = scan_topics_[scan.topic];
-  scan.record.wheel_from_base = wheel_from_base_at(scan);
-  if (const StampedPose* const pose = pose_of(scan)) {
-    if (told_.size() == kRemembered) told_.erase(told_.begin());
-    told_.push_back(pose->index);
-  }
+  scan.record.wheel_from_base = odometry_.wheel_from_base_at(scan.times());
+  odometry_.note_told(scan.times());
   LaserRecord record = std::move(scan.record);
   record.slot = topic.slot;
   record.scanner = topic.candidate.topic;
@@ -572,8 +520,9 @@ std::optional<CarmenRecord> BagLog::next_turn_rate() {
   if (gyro_at_ == gyro_.size()) return std::nullopt;
   const StampedRate& rate = gyro_[gyro_at_];
   const bool is_before_scan = !waiting_ || rate.log_time_ns <= waiting_->log_time_ns;
+  const BagPose* const odometry = odometry_.next();
   const bool is_before_odometry =
-      odometry_at_ == odometry_.size() || rate.log_time_ns <= odometry_[odometry_at_].log_time_ns;
+      odometry == nullptr || rate.log_time_ns <= odometry->times.log_time_ns;
   if (!is_before_scan || !is_before_odometry) return std::nullopt;
   ++gyro_at_;
   ++records_;
@@ -584,20 +533,18 @@ std::optional<CarmenRecord> BagLog::next() {
   while (true) {
     if (!waiting_) waiting_ = next_scan();
     if (auto rate = next_turn_rate()) return rate;
-    const bool odometry_is_first = odometry_at_ < odometry_.size() &&
-                                   (!waiting_ || comes_before(odometry_[odometry_at_], *waiting_));
-    if (!odometry_is_first && !waiting_) return std::nullopt;
-    if (!odometry_is_first) {
+    const BagPose* const pose = odometry_.next();
+    const std::optional<MessageTimes> scan =
+        waiting_ ? std::optional(waiting_->times()) : std::nullopt;
+    if (pose == nullptr && !scan) return std::nullopt;
+    if (pose == nullptr || (scan && !odometry_.comes_before(*pose, *scan))) {
       ++records_;
       return finished(*std::exchange(waiting_, std::nullopt));
     }
-    const StampedPose& pose = odometry_[odometry_at_++];
-    const StampedPose* const of_waiting = waiting_ ? pose_of(*waiting_) : nullptr;
-    const bool is_told_by_a_scan = (of_waiting != nullptr && of_waiting->index == pose.index) ||
-                                   std::ranges::find(told_, pose.index) != told_.end();
-    if (is_told_by_a_scan) continue;
+    odometry_.skip();
+    if (odometry_.is_told_by(scan ? &*scan : nullptr, *pose)) continue;
     ++records_;
-    return OdometryRecord{pose.wheel_from_base, {pose.stamp_ns, pose.log_time_ns}};
+    return OdometryRecord{pose->wheel_from_base, {pose->times.stamp_ns, pose->times.log_time_ns}};
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "common/bags/frame_tree.hpp"
 #include "common/bags/message_source.hpp"
+#include "common/files/bag_odometry.hpp"
 #include "common/files/bag_scan.hpp"
 #include "common/files/log_formats.hpp"
 #include "common/files/record_source.hpp"
@@ -53,31 +54,25 @@ class BagLog : public RecordSource {
     bags::Transform base_from_cloud;
     CloudSlice slice;
   };
-  struct StampedPose {
-    std::int64_t log_time_ns = 0;
-    std::int64_t stamp_ns = 0;
-    std::int64_t index = 0;  ///< Of the message in the bag.
-    geometry::Pose2 wheel_from_base;
-  };
   struct StampedRate {
     std::int64_t log_time_ns = 0;
     std::int64_t stamp_ns = 0;
     double yaw_rate_radps = 0.0;
   };
-  /// Clock that relates odometry and scans.
-  enum class CommonClock : std::uint8_t { kHeaders, kRecording, kOrder };
   struct OdometryTopic {
     TopicCandidate candidate;
     std::string parent_frame;
     std::uint64_t messages = 0;
     bool moves = false;
-    std::vector<StampedPose> poses;
+    std::vector<BagPose> poses;
   };
   struct Scan {
     std::int64_t log_time_ns = 0;
     std::int64_t index = 0;  ///< Of the message in the bag.
     std::size_t topic = 0;
     LaserRecord record;
+
+    MessageTimes times() const { return {log_time_ns, record.stamps.ipc_ns.value_or(0), index}; }
   };
 
   explicit BagLog(RecordOptions options) : options_(std::move(options)) {}
@@ -96,18 +91,13 @@ class BagLog : public RecordSource {
   bool scans_vertically(const TopicCandidate& candidate) const;
   std::optional<std::size_t> main_scanner() const;
   void choose_scanners(std::size_t main);
-  std::optional<Error> choose_odometry(const std::filesystem::path& path,
-                                       const std::string& laser_frame);
-  void take_transforms_as_odometry(const std::string& laser_frame);
+  Result<std::vector<BagPose>> choose_odometry(const std::filesystem::path& path,
+                                               const std::string& laser_frame);
+  std::vector<BagPose> transforms_as_odometry(const std::string& laser_frame);
   std::string base_frame(const std::string& laser_frame) const;
   void mount(ScanTopic& topic, const std::string& base_frame);
   void list_candidates();
-  void sort_odometry();
-  std::int64_t time_of(const StampedPose& pose) const;
-  std::int64_t time_of(const Scan& scan) const;
-  const StampedPose* pose_of(const Scan& scan) const;
-  geometry::Pose2 wheel_from_base_at(const Scan& scan) const;
-  bool comes_before(const StampedPose& pose, const Scan& scan) const;
+  BagOdometry::Clock common_clock(const std::vector<BagPose>& poses) const;
   void note(const std::string& line);
 
   std::optional<Scan> next_scan();
@@ -131,12 +121,7 @@ class BagLog : public RecordSource {
   std::deque<Scan> kept_;
   std::size_t kept_at_first_ = 0;
   std::unique_ptr<bags::MessageSource> messages_;  ///< If there are too many scans to keep.
-  std::vector<StampedPose> odometry_;              ///< Of the chosen topic, by time of recording.
-  std::size_t odometry_at_ = 0;
-  std::vector<StampedPose> odometry_by_time_;    ///< The same by the common clock.
-  CommonClock clock_ = CommonClock::kRecording;  ///< The common clock.
-  std::vector<std::int64_t> told_;  ///< Indices of odometry that scans have already returned; the
-                                    ///< last ones.
+  BagOdometry odometry_;                           ///< Of the chosen topic.
   std::optional<Scan> waiting_;
   std::uint64_t records_ = 0;
   std::string damage_;
