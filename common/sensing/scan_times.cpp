@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "common/geometry/order_statistics.hpp"
+#include "common/sensing/clock_jumps.hpp"
+#include "common/sensing/coarse_stamps.hpp"
+#include "common/sensing/stamp_steps.hpp"
 #include "common/sensing/steady_stamps.hpp"
 
 namespace slammot::sensing {
@@ -36,26 +41,6 @@ Stamps filled_stamps(std::span<const ScanMark> scans) {
   for (std::size_t i = 0; i < scans.size(); ++i)
     stamps[i] = last_ns = scans[i].stamp_ns.value_or(last_ns);
   return stamps;
-}
-
-Stamps steps_of(const Stamps& stamps) {
-  Stamps steps;
-  for (std::size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);
-  return steps;
-}
-
-template <typename Values, typename Predicate>
-double share_of(const Values& values, Predicate is_counted) {
-  if (values.empty()) return 0.0;
-  return static_cast<double>(std::count_if(values.begin(), values.end(), is_counted)) /
-         static_cast<double>(values.size());
-}
-
-/// Of the steps that advance; 0 if none does.
-std::int64_t median_advance_ns(const Stamps& stamps) {
-  Stamps advances = steps_of(stamps);
-  std::erase_if(advances, [](std::int64_t step_ns) { return step_ns <= 0; });
-  return geometry::upper_median(std::move(advances));
 }
 
 bool is_constant(const Stamps& stamps) {
@@ -138,162 +123,6 @@ std::int64_t units_per_second(std::span<const ScanMark> scans, const Stamps& sta
   return best;
 }
 
-/// Largest of 10, 1, 0.1 and 0.01 s that divides all stamps; 1 ns if none does.
-std::int64_t quantum_ns(const Stamps& stamps) {
-  for (const std::int64_t quantum : {10 * kSecondNs, kSecondNs, kSecondNs / 10, kSecondNs / 100}) {
-    if (share_of(stamps, [=](std::int64_t stamp_ns) { return stamp_ns % quantum == 0; }) >= 0.999)
-      return quantum;
-  }
-  return 1;
-}
-
-/// True if stamps are rounded so coarsely that steps do not measure the time between scans. A round
-/// period of a steady scanner is not rounding.
-bool is_coarse(const Stamps& stamps, std::int64_t quantum) {
-  constexpr double kFineShareOfPeriod = 0.3;
-  constexpr double kSteadyShare = 0.8;  // a steady scanner sometimes repeats a stamp or misses a
-                                        // scan
-  const double period_ns =
-      static_cast<double>(stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
-  const Stamps steps = steps_of(stamps);
-  const std::int64_t median_ns = geometry::upper_median(steps);
-  const bool is_steady = median_ns > 0 && share_of(steps, [=](std::int64_t step) {
-                                            return step == median_ns;
-                                          }) >= kSteadyShare;
-  return !is_steady && static_cast<double>(quantum) > kFineShareOfPeriod * period_ns;
-}
-
-/// Way to each scan from the one before, a radian counted as a metre.
-std::vector<double> ways_of(std::span<const ScanMark> scans) {
-  constexpr double kMetresPerRadian = 1.0;
-  std::vector<double> ways;
-  for (const ScanMark& scan : scans) ways.push_back(scan.way_m + kMetresPerRadian * scan.turn_rad);
-  return ways;
-}
-
-/// Relative time for the way to each scan; 1 if the vehicle hardly moves.
-std::vector<double> weights_by_way(std::span<const ScanMark> scans) {
-  std::vector<double> ways = ways_of(scans);
-  const double usual = geometry::upper_median(ways);
-  if (!(usual > 0.0)) return std::vector<double>(scans.size(), 1.0);
-  for (double& way : ways) way = std::clamp(way / usual, 0.2, 5.0);
-  return ways;
-}
-
-/// Relative spread of the time per weight, over stretches of scans much longer than the quantum.
-double unevenness(const Stamps& stamps, const std::vector<double>& weights, std::int64_t quantum) {
-  std::vector<double> seconds_per_weight;
-  double weight = 0.0;
-  std::size_t begin = 0;
-  for (std::size_t i = 1; i < stamps.size(); ++i) {
-    weight += weights[i];
-    if (stamps[i] - stamps[begin] < 5 * quantum || i - begin < 5) continue;
-    seconds_per_weight.push_back(static_cast<double>(stamps[i] - stamps[begin]) / weight);
-    weight = 0.0;
-    begin = i;
-  }
-  const double middle = geometry::upper_median(seconds_per_weight);
-  if (!(middle > 0.0)) return 0.0;
-  std::vector<double> deviations;
-  for (const double each : seconds_per_weight)
-    deviations.push_back(std::abs(each - middle) / middle);
-  return geometry::upper_median(std::move(deviations));
-}
-
-/// Position within each run of equal stamps, by weight, as a first guess.
-std::vector<double> guess_within_quantum(const Stamps& stamps, const std::vector<double>& weights,
-                                         double quantum_s) {
-  std::vector<double> times_s(stamps.size());
-  for (std::size_t begin = 0; begin < stamps.size();) {
-    std::size_t end = begin;
-    double total = 0.0;
-    for (; end < stamps.size() && stamps[end] == stamps[begin]; ++end) total += weights[end];
-    double passed = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-      times_s[i] = 1e-9 * static_cast<double>(stamps[i] - stamps.front()) +
-                   quantum_s * (passed + 0.5 * weights[i]) / total;
-      passed += weights[i];
-    }
-    begin = end;
-  }
-  return times_s;
-}
-
-/// Minimizes the sum of (step_i - rate * weight_i)^2 / weight_i, with every time within the quantum
-/// that begins at its stamp. The problem is convex and is solved by projected successive
-/// over-relaxation. The free ends advance at the usual rate.
-Stamps spread_within_quantum(const Stamps& stamps, const std::vector<double>& weights,
-                             std::int64_t quantum) {
-  constexpr int kSweeps = 300;
-  constexpr double kRelaxation = 1.8;
-  constexpr std::int64_t kLeastStepNs = 1'000;
-  const std::size_t n = stamps.size();
-  const double quantum_s = 1e-9 * static_cast<double>(quantum);
-  double total_weight = 0.0;
-  for (std::size_t i = 1; i < n; ++i) total_weight += weights[i];
-  const double rate = 1e-9 * static_cast<double>(stamps.back() - stamps.front()) / total_weight;
-  std::vector<double> times_s = guess_within_quantum(stamps, weights, quantum_s);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const double before = i > 0 ? 1.0 / weights[i] : 0.0;
-      const double after = i + 1 < n ? 1.0 / weights[i + 1] : 0.0;
-      double pulled = 0.0;
-      if (i > 0) pulled += before * (times_s[i - 1] + rate * weights[i]);
-      if (i + 1 < n) pulled += after * (times_s[i + 1] - rate * weights[i + 1]);
-      const double lowest_s = 1e-9 * static_cast<double>(stamps[i] - stamps.front());
-      const double relaxed_s = times_s[i] + kRelaxation * (pulled / (before + after) - times_s[i]);
-      times_s[i] = std::clamp(relaxed_s, lowest_s, lowest_s + quantum_s);
-    }
-  }
-  Stamps spread(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    spread[i] = stamps.front() + std::llround(times_s[i] * 1e9);
-    if (i > 0 && stamps[i] >= stamps[i - 1])
-      spread[i] = std::max(spread[i], spread[i - 1] + kLeastStepNs);
-  }
-  return spread;
-}
-
-/// True if the stamps after a backward step stay below the highest one before it.
-bool stays_behind(const Stamps& stamps, std::size_t at) {
-  constexpr std::size_t kFollowing = 10;
-  const std::size_t end = std::min(stamps.size(), at + kFollowing);
-  return end - at >= 3 &&
-         std::all_of(stamps.begin() + static_cast<std::ptrdiff_t>(at),
-                     stamps.begin() + static_cast<std::ptrdiff_t>(end),
-                     [&](std::int64_t stamp_ns) { return stamp_ns < stamps[at - 1]; });
-}
-
-/// True if the stamps after a forward step of more than ten minutes stay ahead. A single early
-/// stamp is not a step.
-bool stays_ahead(const Stamps& stamps, std::size_t at) {
-  constexpr std::int64_t kFarAheadNs = 600 * kSecondNs;
-  constexpr std::size_t kFollowing = 3;
-  if (at + kFollowing > stamps.size()) return false;
-  const std::int64_t before_ns = at > 1 ? std::max(stamps[at - 1], stamps[at - 2]) : stamps[at - 1];
-  return std::all_of(stamps.begin() + static_cast<std::ptrdiff_t>(at),
-                     stamps.begin() + static_cast<std::ptrdiff_t>(at + kFollowing),
-                     [&](std::int64_t stamp_ns) { return stamp_ns - before_ns > kFarAheadNs; });
-}
-
-std::uint64_t bridge_jumps(Stamps& stamps) {
-  const Stamps recorded = stamps;
-  const std::int64_t period_ns = std::max<std::int64_t>(median_advance_ns(recorded), 1);
-  std::uint64_t jumps = 0;
-  std::int64_t shift_ns = 0;
-  for (std::size_t i = 1; i < stamps.size(); ++i) {
-    // A backward step after a single early stamp returns to the clock and is not a jump.
-    const bool returns = i > 1 && recorded[i] < recorded[i - 1] && recorded[i] >= recorded[i - 2];
-    if (!returns && ((recorded[i] < recorded[i - 1] && stays_behind(recorded, i)) ||
-                     stays_ahead(recorded, i))) {
-      ++jumps;
-      shift_ns = stamps[i - 1] + period_ns - recorded[i];
-    }
-    stamps[i] = recorded[i] + shift_ns;
-  }
-  return jumps;
-}
-
 /// Differences of such stamps fit into 64 bits.
 bool are_in_range(const Stamps& stamps) {
   const auto [least, most] = std::minmax_element(stamps.begin(), stamps.end());
@@ -344,19 +173,17 @@ void convert_unit(std::span<const ScanMark> scans, Repair& repair) {
 }
 
 void bridge(Repair& repair) {
-  repair.times.jumps = bridge_jumps(repair.stamps);
-  if (repair.times.jumps > 0) repair.note(ClockFault::kJumps);
+  BridgedStamps bridged = without_jumps(repair.stamps);
+  repair.stamps = std::move(bridged.stamps_ns);
+  repair.times.jumps = bridged.jumps;
+  if (bridged.jumps > 0) repair.note(ClockFault::kJumps);
 }
 
-void spread_if_coarse(std::span<const ScanMark> scans, Repair& repair) {
-  const std::int64_t quantum = quantum_ns(repair.stamps);
-  if (quantum == 1 || !is_coarse(repair.stamps, quantum)) return;
-  const std::vector<double> by_way = weights_by_way(scans);
-  const std::vector<double> by_count(scans.size(), 1.0);
-  const bool way_is_evener =
-      unevenness(repair.stamps, by_way, quantum) < unevenness(repair.stamps, by_count, quantum);
-  repair.stamps = spread_within_quantum(repair.stamps, way_is_evener ? by_way : by_count, quantum);
-  repair.times.quantum_s = 1e-9 * static_cast<double>(quantum);
+void spread_coarse(std::span<const ScanMark> scans, Repair& repair) {
+  std::optional<SpreadStamps> spread = spread_if_coarse(scans, repair.stamps);
+  if (!spread) return;
+  repair.stamps = std::move(spread->stamps_ns);
+  repair.times.quantum_s = spread->quantum_s;
   repair.note(ClockFault::kCoarse);
 }
 
@@ -401,7 +228,7 @@ ScanTimes judge_scan_stamps(std::span<const ScanMark> scans) {
     bridge(repair);
     if (jumps_all_the_time(repair) || repair.stamps.back() <= repair.stamps.front())
       return without_clock(ClockFault::kErratic);
-    spread_if_coarse(scans, repair);
+    spread_coarse(scans, repair);
     if (repair.times.fault != ClockFault::kCoarse) remove_noise(repair);
   }
   return advances_mostly(repair.stamps) ? repair.times : without_clock(ClockFault::kErratic);

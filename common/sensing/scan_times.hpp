@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
+
+#include "common/sensing/scan_mark.hpp"
 
 namespace slammot::sensing {
 
@@ -19,13 +20,6 @@ enum class ClockFault : std::uint8_t {
   kBackwards,  ///< They decrease.
   kJumps,      ///< The clock jumps and continues from there.
   kErratic,    ///< Too few steps advance, for another reason.
-};
-
-/// A scan of a log: its recorded stamp and the way from the previous scan by odometry.
-struct ScanMark {
-  std::optional<std::int64_t> stamp_ns;
-  double way_m = 0.0;
-  double turn_rad = 0.0;  ///< Absolute value.
 };
 
 /// Speed that converts ways to times, for logs without usable stamps.
