@@ -238,22 +238,30 @@ void BagLog::note(const std::string& line) {
   if (std::ranges::find(choice_.notes, line) == choice_.notes.end()) choice_.notes.push_back(line);
 }
 
+Error BagLog::no_scan(const std::filesystem::path& path) const {
+  constexpr std::size_t kMostNamed = 300;  // characters
+  std::string message = path.string() + ": no laser scan ";
+  message += options_.topics.scan_topic.empty() ? "in the bag"
+                                                : "of the topic " + options_.topics.scan_topic;
+  std::string topics;
+  for (const auto& [topic, type] : types_) {
+    if (topics.size() >= kMostNamed) break;
+    topics += topics.empty() ? "" : ", ";
+    topics += topic;
+    topics += " (";
+    topics += type;
+    topics += ')';
+  }
+  message += types_.empty() ? ", nor any message" : "; its topics: " + topics;
+  if (!damage_.empty()) message += "; it is cut off or damaged: " + damage_;
+  std::ranges::replace_if(
+      message, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
+  return Error{std::move(message)};
+}
+
 std::optional<Error> BagLog::choose(const std::filesystem::path& path) {
   const auto main = main_scanner();
-  if (!main) {
-    std::string message = path.string() + ": no laser scan in the bag";
-    if (!options_.topics.scan_topic.empty())
-      message = path.string() + ": no laser scan of the topic " + options_.topics.scan_topic;
-    std::string topics;
-    for (const auto& [topic, type] : types_) {
-      if (topics.size() < 300) topics += (topics.empty() ? "" : ", ") + topic + " (" + type + ")";
-    }
-    message += types_.empty() ? ", nor any message" : "; its topics: " + topics;
-    if (!damage_.empty()) message += "; it is cut off or damaged: " + damage_;
-    std::ranges::replace_if(
-        message, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
-    return Error{message};
-  }
+  if (!main) return no_scan(path);
   choose_scanners(*main);
   const std::string laser_frame = scan_topics_[*main].candidate.frame;
   auto odometry = choose_odometry(path, laser_frame);

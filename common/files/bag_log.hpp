@@ -88,6 +88,7 @@ class BagLog : public RecordSource {
   std::size_t scan_topic(const bags::RawMessage& message, const std::string& frame);
 
   std::optional<Error> choose(const std::filesystem::path& path);
+  Error no_scan(const std::filesystem::path& path) const;
   bool scans_vertically(const TopicCandidate& candidate) const;
   std::optional<std::size_t> main_scanner() const;
   void choose_scanners(std::size_t main);

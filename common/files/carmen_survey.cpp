@@ -87,6 +87,7 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
     if (!is_used && wish.used.empty()) plan.unplaced_scanners.push_back(scanner->scanner);
   }
   std::vector<ScannerSurvey> scanners;  // in metres
+  scanners.reserve(used.size());
   for (const ScannerSurvey* scanner : used) scanners.push_back(*scanner);
   if (scanners.empty()) scanners.emplace_back();
   const ScannerSurvey& main = scanners.front();
