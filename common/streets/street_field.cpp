@@ -28,10 +28,10 @@ double undirected(double direction_rad) {
 
 }  // namespace
 
-StreetField::StreetField(const StreetGraph& graph, const Area& area)
+StreetField::StreetField(const StreetNetwork& network, const Area& area)
     : min_m_(area.centre_m - Vector2::Constant(area.half_side_m)) {
-  for (const Segment& segment : graph.segments()) {
-    if (overlaps(segment, area)) segments_.push_back(segment);
+  for (const LinkSegment& part : network.segments()) {
+    if (overlaps(part.segment, area)) segments_.push_back(part);
   }
   cell_m_ = std::max(cell_m_, 2.0 * area.half_side_m / std::sqrt(kMostCells));
   side_ = static_cast<std::int64_t>(std::ceil(2.0 * area.half_side_m / cell_m_));
@@ -45,7 +45,7 @@ std::size_t StreetField::index(int layer, std::int64_t column, std::int64_t row)
 
 /// Enters a segment into the cells around it, in the layer of its direction and both beside it.
 void StreetField::draw(std::int32_t number) {
-  const Segment& segment = segments_[static_cast<std::size_t>(number)];
+  const Segment& segment = segments_[static_cast<std::size_t>(number)].segment;
   const int own = static_cast<int>(undirected(segment.direction_rad()) / kPi * kLayers) % kLayers;
   const auto cell_of = [&](double offset_m) {
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(offset_m / cell_m_)), 0,
@@ -66,7 +66,8 @@ void StreetField::draw(std::int32_t number) {
         const bool is_nearer =
             known < 0 ||
             distance_m <
-                (segments_[static_cast<std::size_t>(known)].nearest_to(centre_m) - centre_m).norm();
+                (segments_[static_cast<std::size_t>(known)].segment.nearest_to(centre_m) - centre_m)
+                    .norm();
         if (is_nearer) known = number;
       }
     }
@@ -84,11 +85,13 @@ std::optional<StreetField::Nearest> StreetField::nearest(
   const std::int32_t number = nearest_[index(layer, static_cast<std::int64_t>(cell.x()),
                                              static_cast<std::int64_t>(cell.y()))];
   if (number < 0) return std::nullopt;
-  const Segment& segment = segments_[static_cast<std::size_t>(number)];
+  const LinkSegment& part = segments_[static_cast<std::size_t>(number)];
+  const Segment& segment = part.segment;
   const Vector2 point_m = segment.nearest_to(place_m);
-  const double direction_rad = segment.direction_rad();
-  const bool is_against = std::cos(direction_rad - streets_from_base.heading_rad) < 0.0;
-  return Nearest{&segment, point_m, (point_m - place_m).norm(),
+  const double direction_rad = part.direction_rad;
+  const bool is_against =
+      std::abs(geometry::wrap_angle(direction_rad - streets_from_base.heading_rad)) > 0.5 * kPi;
+  return Nearest{&part, point_m, (point_m - place_m).norm(),
                  geometry::wrap_angle(is_against ? direction_rad + kPi : direction_rad)};
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/geometry/pose2.hpp"
-#include "common/streets/street_graph.hpp"
+#include "common/streets/street_network.hpp"
 
 namespace slammot::streets {
 
@@ -22,13 +22,19 @@ struct Area {
 class StreetField {
  public:
   /// Cells are 2 m wide, wider where the area is large.
-  StreetField(const StreetGraph& graph, const Area& area);
+  StreetField(const StreetNetwork& network, const Area& area);
 
   struct Nearest {
-    const Segment* segment = nullptr;
+    const LinkSegment* part = nullptr;
     geometry::Vector2 point_m;  ///< On the street.
     double distance_m = 0.0;
     double direction_rad = 0.0;  ///< Of the street, in the sense of the heading.
+
+    /// Share of the link's length before the point.
+    double share_of_link() const {
+      const double share = (point_m - part->segment.from_m).norm() / part->segment.length_m();
+      return part->share_from + share * (part->share_to - part->share_from);
+    }
   };
 
   /// Nearest street whose direction differs from the heading, in either sense, by at most about 30
@@ -36,7 +42,7 @@ class StreetField {
   std::optional<Nearest> nearest(const geometry::Pose2& streets_from_base) const;
 
   /// Parts of streets within the area.
-  const std::vector<Segment>& segments() const { return segments_; }
+  const std::vector<LinkSegment>& segments() const { return segments_; }
 
   static constexpr double kReach_m = 24.0;
 
@@ -46,7 +52,7 @@ class StreetField {
   void draw(std::int32_t segment);
   std::size_t index(int layer, std::int64_t column, std::int64_t row) const;
 
-  std::vector<Segment> segments_;
+  std::vector<LinkSegment> segments_;
   geometry::Vector2 min_m_;
   double cell_m_ = 2.0;
   std::int64_t side_ = 0;              ///< Cells.

@@ -6,23 +6,15 @@
 
 #include "common/geometry/pose2.hpp"
 #include "common/streets/street_graph.hpp"
+#include "common/streets/street_proposals.hpp"
 
 namespace slammot::streets {
 
 struct StreetLocalizationConfig {
-  double sigma_m = 1.8;             ///< Of a street's line across, one sigma: digitization, lanes.
-  double sigma_rad = 0.08;          ///< Of the heading against the street's direction.
-  double lane_sigma_m = 2.0;        ///< Of the lane's distance from the line: estimated.
-  double least_way_m = 100.0;       ///< Less tells nothing.
-  double clear_probability = 0.95;  ///< Of the best place, for it to count as located.
-};
-
-/// What is known of where the way begins.
-struct StartArea {
-  geometry::Vector2 centre_m = geometry::Vector2::Zero();  ///< In streets.
-  double radius_m = 100.0;
-  std::optional<double> x_from_east_rad{};  ///< Direction of the map's x axis, if a compass or GNSS
-  double direction_within_rad = 0.4;        ///< gives it, and its greatest error.
+  double node_sigma_m = 1.5;   ///< Of a junction of the graph, an axis, one sigma: digitization.
+  double lane_sigma_m = 2.0;   ///< Of the lane's distance from the line: estimated.
+  double least_way_m = 100.0;  ///< Less tells nothing.
+  double clear_probability = 0.99;  ///< Of the best place, for it to count as located.
 };
 
 enum class StreetVerdict {
@@ -35,7 +27,7 @@ enum class StreetVerdict {
 /// A place where the way fits.
 struct StreetFit {
   geometry::Pose2 streets_from_map;
-  double cost = 0.0;         ///< Negative logarithm of the likelihood.
+  double cost = 0.0;         ///< Negative logarithm of the evidence.
   double share = 0.0;        ///< Of the way on streets.
   double probability = 0.0;  ///< Among all places that were found.
 };
@@ -48,9 +40,8 @@ struct StreetLocation {
 
 /// Finds where in a street graph a way was driven: topological global localization with a digital
 /// map (Wang, Thorpe and Thrun 2003, section III). The way comes from the scans and is accurate in
-/// shape, so that it is compared with the streets as a whole: places and directions are proposed by
-/// laying some of its points onto streets, and the best are refined by least squares. Parts beside
-/// all streets cost a bounded amount, so that a street may be missing in the graph.
+/// shape, so that it is compared with the streets as a whole. Each place has an evidence, with the
+/// errors of the graph integrated out, and streets may be missing at a cost (street_evidence.hpp).
 ///
 /// way: poses map_from_base in the order of the drive, of any spacing. start: none if nothing is
 /// known. Deterministic.
@@ -65,7 +56,7 @@ struct StreetSearch {
 };
 
 /// Searches with the first 100 m of the way, then with 50 m more each time, up to `most_m`, until
-/// two searches in a row find one and the same place.
+/// one place is clear.
 StreetSearch search_along(const StreetGraph& graph, std::span<const geometry::Pose2> way,
                           const std::optional<StartArea>& start, double most_m,
                           const StreetLocalizationConfig& config = {});

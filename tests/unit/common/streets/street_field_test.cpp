@@ -10,8 +10,9 @@ namespace {
 using geometry::Pose2;
 using geometry::Vector2;
 
-StreetGraph crossing() {
-  return {{}, {{"east", {{-100.0, 0.0}, {100.0, 0.0}}}, {"north", {{0.0, -100.0}, {0.0, 100.0}}}}};
+StreetNetwork crossing() {
+  return StreetNetwork(StreetGraph{
+      {}, {{"east", {{-100.0, 0.0}, {100.0, 0.0}}}, {"north", {{0.0, -100.0}, {0.0, 100.0}}}}});
 }
 
 TEST(StreetField, FindsTheStreetThatRunsInTheHeadingAndNotTheNearerOne) {

@@ -77,7 +77,66 @@ TEST(StreetLocalization, FindsItThoughAStreetOfTheWayIsMissing) {
   expect_found(locate(graph, way, StartArea{{150.0, 60.0}, 100.0}));
 }
 
-TEST(StreetLocalization, SearchesAlongTheWayUntilTwoSearchesAgree) {
+/// Errors of the graph belong to its junctions; the streets between have them in proportion.
+TEST(StreetLocalization, FindsItThoughEachJunctionIsOff) {
+  StreetGraph graph = irregular_town();
+  const auto off_m = [](const Vector2& junction_m) {
+    const double phase = 0.7 * junction_m.x() + 1.3 * junction_m.y();
+    return Vector2(2.0 * std::sin(phase), 2.0 * std::cos(3.0 * phase));
+  };
+  for (Street& street : graph.streets)
+    for (Vector2& point_m : street.line_m) point_m += off_m(point_m);
+  const auto way = in_map(way_along(kCorners_m), kStreetsFromMap);
+  expect_found(locate(graph, way, StartArea{{150.0, 60.0}, 100.0}));
+}
+
+/// Two places fit all streets of the way alike: nothing in its shape tells which is right.
+TEST(StreetLocalization, SaysThatAWayThroughARegularTownIsAmbiguous) {
+  StreetGraph graph;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 5; ++j) {
+      graph.streets.push_back({"", {{100.0 * i, 100.0 * j}, {100.0 * i, 100.0 * (j + 1)}}});
+      graph.streets.push_back({"", {{100.0 * j, 100.0 * i}, {100.0 * (j + 1), 100.0 * i}}});
+    }
+  }
+  const auto way =
+      way_along({{200.0, 120.0}, {200.0, 200.0}, {300.0, 200.0}, {300.0, 300.0}, {200.0, 300.0}});
+  const StreetLocation location = locate(graph, way, StartArea{{210.0, 150.0}, 100.0, 0.0});
+  ASSERT_EQ(location.verdict, StreetVerdict::kAmbiguous);
+  EXPECT_LT(location.fits[0].probability, 0.6);
+}
+
+/// Where a street is missing, another place that fits but for an error of 12 m is not taken for the
+/// right one.
+TEST(StreetLocalization, DoesNotTakeAnotherBlockForTheOneWhoseStreetIsMissing) {
+  const auto town = [](bool is_complete) {
+    StreetGraph graph;
+    const std::vector<double> columns_m{0.0, 100.0, 212.0, 312.0};
+    const std::vector<double> rows_m{0.0, 110.0, 205.0, 330.0};
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 1; j < 4; ++j) {
+        if (is_complete || i != 1 || j != 2)
+          graph.streets.push_back({"", {{columns_m[i], rows_m[j - 1]}, {columns_m[i], rows_m[j]}}});
+        graph.streets.push_back({"", {{columns_m[j - 1], rows_m[i]}, {columns_m[j], rows_m[i]}}});
+      }
+    }
+    return graph;
+  };
+  const auto way = way_along({{10.0, 110.0},
+                              {100.0, 110.0},
+                              {100.0, 205.0},
+                              {212.0, 205.0},
+                              {212.0, 330.0},
+                              {312.0, 330.0}});
+  const StartArea start{{60.0, 110.0}, 100.0, 0.0};
+  for (const bool is_complete : {true, false}) {
+    const StreetLocation location = locate(town(is_complete), way, start);
+    ASSERT_EQ(location.verdict, StreetVerdict::kLocated) << is_complete;
+    EXPECT_LT(location.fits[0].streets_from_map.translation_m().norm(), 5.0) << is_complete;
+  }
+}
+
+TEST(StreetLocalization, SearchesAlongTheWayUntilOnePlaceIsClear) {
   const auto way = in_map(way_along(kCorners_m), kStreetsFromMap);
   const StreetSearch search =
       search_along(irregular_town(), way, StartArea{{150.0, 60.0}, 100.0}, 1000.0);
