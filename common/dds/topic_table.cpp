@@ -21,7 +21,7 @@ std::set<std::string_view> words_of(std::string_view text) {
 
 std::span<const TopicInfo* const> topic_table() {
   using namespace topics;
-  static constexpr std::array<const TopicInfo*, 22> kTable = {&kLaserScan,
+  static constexpr std::array<const TopicInfo*, 23> kTable = {&kLaserScan,
                                                               &kOdometry,
                                                               &kGnssFix,
                                                               &kCompassReading,
@@ -39,6 +39,7 @@ std::span<const TopicInfo* const> topic_table() {
                                                               &kStoredMap,
                                                               &kConstraint,
                                                               &kGraphCorrection,
+                                                              &kTrafficWays,
                                                               &kHeartbeat,
                                                               &kStatus,
                                                               &kCommand,

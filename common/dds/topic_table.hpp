@@ -84,6 +84,8 @@ inline constexpr Topic<slammot_Constraint> kConstraint{
 inline constexpr Topic<slammot_GraphCorrection> kGraphCorrection{
     {"slammot/graph_correction", &slammot_GraphCorrection_desc, Flow::kGraph, Recorded::kYes,
      "loop_closing"}};
+inline constexpr Topic<slammot_TrafficWays> kTrafficWays{
+    {"slammot/traffic_ways", &slammot_TrafficWays_desc, Flow::kGraph, Recorded::kYes, "map_store"}};
 inline constexpr Topic<slammot_Heartbeat> kHeartbeat{
     {"slammot/heartbeat", &slammot_Heartbeat_desc, Flow::kHeartbeat, Recorded::kNo, "*"}};
 inline constexpr Topic<slammot_ServiceStatus> kStatus{

@@ -16,15 +16,11 @@ using geometry::Vector2;
 
 constexpr int kCellsAside = 4;  // of a block
 constexpr double kBlockM = kCellsAside * kCellM;
-constexpr double kPieceM = 0.5 * kCellM;
 constexpr int kMostDirections = 4;  // of a cell: two crossing ways, both ways each
 constexpr double kSameDirection = std::numbers::sqrt2 / 2.0;  // cosine of 45 degrees
 
 constexpr double kLeastSpeedMps = 0.5;
-constexpr double kSignificant = 9.21;  // 99 % quantile of chi-square with two degrees of freedom
-constexpr double kLeastWayM = 3.0;     // from the first state; a shorter one may be an error of the
-                                       // box
-constexpr double kLongestGapS = 1.0;
+constexpr double kSignificant = 9.21;    // 99 % quantile of chi-square with two degrees of freedom
 constexpr double kHalfCertainM2 = 0.25;  // variance of the position that halves the weight
 
 Vector2 corner_of(std::uint64_t key) {
@@ -38,15 +34,6 @@ std::uint8_t cell_at(const Vector2& in_block_m) {
     return std::clamp(static_cast<int>(coordinate_m / kCellM), 0, kCellsAside - 1);
   };
   return static_cast<std::uint8_t>(kCellsAside * index(in_block_m.y()) + index(in_block_m.x()));
-}
-
-/// True if the velocity is beyond what its covariance explains.
-bool moves(const MoverState& state) {
-  const Vector2& velocity_mps = state.velocity_in_map_mps;
-  if (velocity_mps.norm() < kLeastSpeedMps) return false;
-  const Matrix2 covariance =
-      state.covariance.bottomRightCorner<2, 2>() + 1e-9 * Matrix2::Identity();
-  return velocity_mps.dot(covariance.ldlt().solve(velocity_mps)) > kSignificant;
 }
 
 double certainty_of(const MoverState& state) {
@@ -89,6 +76,14 @@ struct TrafficMap::Piece {
   double width_m = 0.0;
 };
 
+bool moves(const MoverState& state) {
+  const Vector2& velocity_mps = state.velocity_in_map_mps;
+  if (velocity_mps.norm() < kLeastSpeedMps) return false;
+  const Matrix2 covariance =
+      state.covariance.bottomRightCorner<2, 2>() + 1e-9 * Matrix2::Identity();
+  return velocity_mps.dot(covariance.ldlt().solve(velocity_mps)) > kSignificant;
+}
+
 double Stream::agreement() const {
   return std::min(1.0, static_cast<double>(direction_sum.norm() / weight));
 }
@@ -103,7 +98,12 @@ double Stream::speed_spread_mps() const {
 
 void TrafficMap::add(const Passage& passage) {
   const std::vector<const MoverState*> states = thinned(passage);
-  if (!went_somewhere(states)) return;
+  if (went_somewhere(states)) add_steps(passage, states);
+}
+
+void TrafficMap::add_part(const Passage& part) { add_steps(part, thinned(part)); }
+
+void TrafficMap::add_steps(const Passage& passage, const std::vector<const MoverState*>& states) {
   ++passages_;
   for (std::size_t i = 1; i < states.size(); ++i) add_step(passage, *states[i - 1], *states[i]);
 }
@@ -125,39 +125,84 @@ void TrafficMap::add_step(const Passage& passage, const MoverState& from, const 
                length_m / pieces, certainty, speed_mps, passage.width_m});
 }
 
-void TrafficMap::add_piece(const Piece& piece) {
-  const std::uint64_t key = square_key(piece.position_m, kBlockM);
-  auto& blocks = blocks_[static_cast<std::size_t>(piece.mover)];
-  if (is_full() && !blocks.contains(key)) return;
+/// The stream of the cell that agrees in direction; a new one if there is none and room for it,
+/// else the most similar one. Null if the map is full.
+Stream* TrafficMap::stream_at(Mover mover, const Vector2& position_m, const Vector2& direction) {
+  const std::uint64_t key = square_key(position_m, kBlockM);
+  auto& blocks = blocks_[static_cast<std::size_t>(mover)];
+  if (is_full() && !blocks.contains(key)) return nullptr;
   Block& block = blocks[key];
-  const Vector2 in_block_m = piece.position_m - corner_of(key);
-  const std::uint8_t cell = cell_at(in_block_m);
+  const std::uint8_t cell = cell_at(position_m - corner_of(key));
   Stream* nearest = nullptr;
   double nearest_cosine = -2.0;
   int directions = 0;
   for (Stream& stream : block) {
     if (stream.cell != cell) continue;
     ++directions;
-    const double cosine = stream.direction().dot(piece.direction);
+    const double cosine = stream.direction().dot(direction);
     if (cosine > nearest_cosine) nearest = &stream, nearest_cosine = cosine;
   }
   if (nearest_cosine < kSameDirection && directions < kMostDirections) {
-    if (is_full()) return;
+    if (is_full()) return nullptr;
     ++streams_;
     nearest = &block.emplace_back();
     nearest->cell = cell;
   }
+  return nearest;
+}
+
+void TrafficMap::add_piece(const Piece& piece) {
+  Stream* const stream = stream_at(piece.mover, piece.position_m, piece.direction);
+  if (stream == nullptr) return;
+  const Vector2 in_block_m = piece.position_m - corner_of(square_key(piece.position_m, kBlockM));
   const auto weight = static_cast<float>(piece.length_m * piece.certainty);
   const auto speed_mps = static_cast<float>(piece.speed_mps);
-  if (nearest->last_passage != passages_) ++nearest->passages;
-  nearest->last_passage = passages_;
-  nearest->length_m += static_cast<float>(piece.length_m);
-  nearest->weight += weight;
-  nearest->position_sum_m += weight * in_block_m.cast<float>();
-  nearest->direction_sum += weight * piece.direction.cast<float>();
-  nearest->speed_sum_mps += weight * speed_mps;
-  nearest->squared_speed_sum += weight * speed_mps * speed_mps;
-  nearest->width_sum_m += weight * static_cast<float>(piece.width_m);
+  if (stream->last_passage != passages_) ++stream->passages;
+  stream->last_passage = passages_;
+  stream->length_m += static_cast<float>(piece.length_m);
+  stream->weight += weight;
+  stream->position_sum_m += weight * in_block_m.cast<float>();
+  stream->direction_sum += weight * piece.direction.cast<float>();
+  stream->speed_sum_mps += weight * speed_mps;
+  stream->squared_speed_sum += weight * speed_mps * speed_mps;
+  stream->width_sum_m += weight * static_cast<float>(piece.width_m);
+}
+
+void TrafficMap::add(const std::vector<FreeStream>& streams,
+                     const geometry::Pose2& map_from_frame) {
+  const geometry::Matrix2 turn = geometry::rotation(map_from_frame.heading_rad);
+  for (const FreeStream& free : streams) {
+    const Vector2 position_m = map_from_frame * Vector2(free.position_m.cast<double>());
+    const Vector2 direction_sum = turn * free.direction_sum.cast<double>();
+    if (!(position_m.cwiseAbs().maxCoeff() < kFarthestM)) continue;
+    Stream* const stream = stream_at(free.mover, position_m, direction_sum.normalized());
+    if (stream == nullptr) continue;
+    const Vector2 in_block_m = position_m - corner_of(square_key(position_m, kBlockM));
+    stream->passages += free.passages;
+    stream->length_m += free.length_m;
+    stream->weight += free.weight;
+    stream->position_sum_m += free.weight * in_block_m.cast<float>();
+    stream->direction_sum += direction_sum.cast<float>();
+    stream->speed_sum_mps += free.speed_sum_mps;
+    stream->squared_speed_sum += free.squared_speed_sum;
+    stream->width_sum_m += free.width_sum_m;
+  }
+}
+
+std::vector<FreeStream> TrafficMap::free_streams(const geometry::Pose2& frame_from_map) const {
+  const geometry::Matrix2 turn = geometry::rotation(frame_from_map.heading_rad);
+  std::vector<FreeStream> all;
+  all.reserve(streams_);
+  for (const Mover mover : {Mover::kVehicle, Mover::kBicycle, Mover::kPedestrian}) {
+    for (const PlacedStream& placed : streams(mover)) {
+      const Stream& stream = *placed.stream;
+      all.push_back({mover, stream.passages,
+                     (frame_from_map * placed.position_m).cast<float>().eval(), stream.length_m,
+                     stream.weight, (turn * stream.direction_sum.cast<double>()).cast<float>(),
+                     stream.speed_sum_mps, stream.squared_speed_sum, stream.width_sum_m});
+    }
+  }
+  return all;
 }
 
 void TrafficMap::append_near(Mover mover, const Vector2& centre_m, double half_side_m,

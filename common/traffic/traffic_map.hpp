@@ -33,6 +33,28 @@ struct Stream {
   double speed_spread_mps() const;  ///< Standard deviation.
 };
 
+/// A stream without its cell, in the frame of whoever holds it.
+struct FreeStream {
+  Mover mover = Mover::kVehicle;
+  std::uint32_t passages = 0;
+  Eigen::Vector2f position_m = Eigen::Vector2f::Zero();  ///< Mean.
+  float length_m = 0.0F;                                 ///< This and the sums as in Stream.
+  float weight = 0.0F;
+  Eigen::Vector2f direction_sum = Eigen::Vector2f::Zero();
+  float speed_sum_mps = 0.0F;
+  float squared_speed_sum = 0.0F;
+  float width_sum_m = 0.0F;
+};
+
+/// True if the velocity is beyond what its covariance explains.
+bool moves(const MoverState& state);
+
+constexpr double kPieceM = 0.5 * kCellM;  ///< Least distance of states that count.
+constexpr double kLeastWayM = 3.0;        ///< From the first state; a shorter one may be an error
+                                          ///< of the box.
+constexpr double kLongestGapS = 1.0;      ///< Between states that are joined.
+constexpr double kFarthestM = 1e6;        ///< From the origin; what is beyond does not count.
+
 /// A stream with its mean position in map.
 struct PlacedStream {
   const Stream* stream = nullptr;
@@ -51,6 +73,15 @@ class TrafficMap {
   /// nothing; uncertain states weigh less.
   void add(const Passage& passage);
 
+  /// Adds a part of the way of a track that went somewhere as a whole.
+  void add_part(const Passage& part);
+
+  /// Adds streams that another map holds in the frame.
+  void add(const std::vector<FreeStream>& streams, const geometry::Pose2& map_from_frame);
+
+  /// Copies of all streams, seen from the frame, in the order of streams().
+  std::vector<FreeStream> free_streams(const geometry::Pose2& frame_from_map) const;
+
   /// Appends the streams of the blocks that touch the square of that half side to `found`.
   void append_near(Mover mover, const geometry::Vector2& centre_m, double half_side_m,
                    std::vector<PlacedStream>& found) const;
@@ -66,8 +97,11 @@ class TrafficMap {
   using Block = std::vector<Stream>;
   struct Piece;
 
+  void add_steps(const Passage& passage, const std::vector<const MoverState*>& states);
   void add_step(const Passage& passage, const MoverState& from, const MoverState& to);
   void add_piece(const Piece& piece);
+  Stream* stream_at(Mover mover, const geometry::Vector2& position_m,
+                    const geometry::Vector2& direction);
 
   std::size_t most_streams_;
   std::size_t streams_ = 0;

@@ -56,11 +56,13 @@ const std::vector<Channel>& channels() {
       protobuf_channel<foxglove::Grid>(ChannelId::kStationaryMap, "/map/stationary",
                                        Retention::kLast),
       protobuf_channel<foxglove::Grid>(ChannelId::kMovingMap, "/map/moving", Retention::kLast),
+      protobuf_channel<foxglove::SceneUpdate>(ChannelId::kWays, "/map/ways", Retention::kLast),
       protobuf_channel<foxglove::LocationFix>(ChannelId::kFix, "/gnss"),
       protobuf_channel<foxglove::Log>(ChannelId::kLog, "/log", Retention::kLast),
       json_channel(ChannelId::kTrackDetails, "/slammot/tracks"),
       json_channel(ChannelId::kPoseDetails, "/slammot/pose"),
       json_channel(ChannelId::kGraph, "/slammot/graph", Retention::kLast),
+      json_channel(ChannelId::kWayDetails, "/slammot/ways", Retention::kLast),
       json_channel(ChannelId::kHealth, "/slammot/health", Retention::kLast),
   };
   return all;

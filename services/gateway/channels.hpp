@@ -17,11 +17,13 @@ enum class ChannelId : std::uint32_t {
   kTransforms,
   kStationaryMap,
   kMovingMap,
+  kWays,
   kFix,
   kLog,
   kTrackDetails,
   kPoseDetails,
   kGraph,
+  kWayDetails,
   kHealth,
 };
 
@@ -41,6 +43,6 @@ struct Channel {
 
 /// All channels; the index is the id.
 const std::vector<Channel>& channels();
-inline constexpr std::size_t kChannelCount = 14;
+inline constexpr std::size_t kChannelCount = 16;
 
 }  // namespace slammot::gateway

@@ -90,6 +90,10 @@ void DriveMessages::take(const slammot_GraphCorrection& part) {
   note_fault("faulty_corrections", map_.take(part));
 }
 
+void DriveMessages::take(const slammot_TrafficWays& part) {
+  note_fault("faulty_ways", map_.take(part));
+}
+
 void DriveMessages::take(const slammot_Constraint& sample) {
   const auto constraint = wire::decode(sample);
   if (accept(constraint, "faulty_constraints")) map_.take(*constraint);

@@ -31,6 +31,7 @@ class DriveMessages {
   void take(const slammot_SubmapTile& tile);
   void take(const slammot_GraphCorrection& part);
   void take(const slammot_Constraint& sample);
+  void take(const slammot_TrafficWays& part);
 
   /// Publishes what changed of the map. Call it a few times a second.
   void publish_map(Time now) { map_.publish(now); }

@@ -122,6 +122,7 @@ void GatewayService::read_drive() {
   read(dds::topics::kStoredSubmapTile);
   read(dds::topics::kGraphCorrection);
   read(dds::topics::kConstraint);
+  read(dds::topics::kTrafficWays);
   context_.every(250ms, [this] { drive_.publish_map(std::chrono::steady_clock::now()); });
 }
 

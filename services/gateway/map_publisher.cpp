@@ -4,6 +4,7 @@
 
 #include "services/gateway/pose_messages.hpp"
 #include "services/gateway/submap_view.hpp"
+#include "services/gateway/way_messages.hpp"
 
 namespace slammot::gateway {
 namespace {
@@ -48,6 +49,12 @@ std::string_view MapPublisher::take(const slammot_GraphCorrection& part) {
   return added.fault;
 }
 
+std::string_view MapPublisher::take(const slammot_TrafficWays& part) {
+  wire::TrafficWaysAssembler::Added added = traffic_.add(part);
+  if (added.ways) ways_ = std::move(added.ways);
+  return added.fault;
+}
+
 void MapPublisher::take(const flow::Constraint& constraint) {
   view_of(constraint.map_id).add(constraint);
   has_new_graph_ = true;
@@ -66,6 +73,8 @@ void MapPublisher::follow(const flow::LocalizedScan& scan) {
       return true;
     });
     has_new_graph_ = has_new_map_ = true;
+    if (!ways_ || ways_->map_id != scan.map_id)
+      ways_ = traffic::TrafficWays{0, scan.stamp_ns, scan.map_id, {}};
   }
   view_of(scan.map_id).follow(scan);
 }
@@ -73,6 +82,7 @@ void MapPublisher::follow(const flow::LocalizedScan& scan) {
 void MapPublisher::publish(Time now) {
   if (!in_use_) return;
   if (std::exchange(has_new_graph_, false)) publish_graph();
+  publish_ways();
   publish_way(now);
   publish_grids(now);
 }
@@ -86,6 +96,14 @@ void MapPublisher::publish_way(Time now) {
   way_due_ = now + kWayPeriod;
   audience_.publish(ChannelId::kTrajectory, stamp_ns_,
                     poses_message(stamp_ns_, view_of(*in_use_).way()).SerializeAsString());
+}
+
+/// Those of another map wait: it may come into use.
+void MapPublisher::publish_ways() {
+  if (!ways_ || ways_->map_id != in_use_) return;
+  audience_.publish(ChannelId::kWays, stamp_ns_, ways_scene(*ways_).SerializeAsString());
+  audience_.publish(ChannelId::kWayDetails, stamp_ns_, ways_json(*ways_));
+  ways_.reset();
 }
 
 void MapPublisher::publish_grids(Time now) {

@@ -10,6 +10,7 @@
 
 #include "common/wire/graph.hpp"
 #include "common/wire/submap.hpp"
+#include "common/wire/traffic_ways.hpp"
 #include "services/gateway/audience.hpp"
 #include "services/gateway/map_messages.hpp"
 #include "services/gateway/map_view.hpp"
@@ -28,6 +29,7 @@ class MapPublisher {
   /// Each returns the reason of a rejection; empty if accepted.
   std::string_view take(const slammot_SubmapTile& tile);
   std::string_view take(const slammot_GraphCorrection& part);
+  std::string_view take(const slammot_TrafficWays& part);
   void take(const flow::Constraint& constraint);
   void follow(const flow::LocalizedScan& scan);
 
@@ -43,11 +45,14 @@ class MapPublisher {
   void add(flow::Submap submap);
   void publish_graph();
   void publish_way(Time now);
+  void publish_ways();
   void publish_grids(Time now);
 
   Audience& audience_;
   wire::SubmapAssembler submaps_;
   wire::GraphCorrectionAssembler corrections_;
+  wire::TrafficWaysAssembler traffic_;
+  std::optional<traffic::TrafficWays> ways_;  ///< That are not published.
   std::map<flow::MapId, MapView> views_;
   std::map<std::string, std::string> served_;  ///< Path by map and submap.
   std::optional<flow::MapId> in_use_;

@@ -45,6 +45,7 @@ class Decoder {
     add(recording, topics::kStoredSubmapTile);
     add(recording, topics::kGraphCorrection);
     add(recording, topics::kConstraint);
+    add(recording, topics::kTrafficWays);
   }
 
   bool is_empty() const { return takes_.empty(); }

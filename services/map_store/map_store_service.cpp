@@ -58,26 +58,41 @@ MapStoreService::MapStoreService(app::ServiceContext& context, const Settings& s
       config_(settings.config),
       store_(open_store(context, settings)),
       stored_submaps_(context, store_),
-      stored_objects_(context.write(dds::topics::kStoredTrackedObjects)),
+      traffic_(context, store_),
+      relay_(context),
       stored_map_(context.write(dds::topics::kStoredMap)) {
   read_stored();
-  stored_objects_.write(wire::TrackedObjectsEncoder().encode(context.vehicle_id(), {}));
-  context.read(dds::topics::kSubmapTile, app::Input::kOccasional,
-               [this](const auto& tile) { take(tile); });
-  context.read(dds::topics::kTrackedObjects, app::Input::kOccasional,
-               [this](const slammot_TrackedObjects& objects) { relay(objects); });
+  read_inputs();
   context.every(std::chrono::nanoseconds(static_cast<std::int64_t>(config_.retry_after_s * 1e9)),
                 [this] { retry(); });
-  context.every(kAdvancePeriod, [this] { stored_submaps_.advance(); });
+  context.every(kAdvancePeriod, [this] {
+    stored_submaps_.advance();
+    traffic_.advance();
+  });
 }
 
-/// A tracking service that restarts after a crash restores the last tracks from here; until there
-/// are some, it is told that there are none.
-void MapStoreService::relay(const slammot_TrackedObjects& objects) {
-  constexpr std::int64_t kPeriodNs = 100'000'000;  // by the data's clock
+void MapStoreService::read_inputs() {
+  context_.read(dds::topics::kSubmapTile, app::Input::kOccasional,
+                [this](const auto& tile) { take(tile); });
+  context_.read(dds::topics::kTrackedObjects, app::Input::kOccasional,
+                [this](const slammot_TrackedObjects& objects) {
+                  relay_.take(objects);
+                  traffic_.take(objects);
+                });
+  context_.read(dds::topics::kGraphCorrection, app::Input::kOccasional,
+                [this](const slammot_GraphCorrection& part) { traffic_.take(part); });
+}
+
+TrackRelay::TrackRelay(app::ServiceContext& context)
+    : writer_(context.write(dds::topics::kStoredTrackedObjects)) {
+  writer_.write(wire::TrackedObjectsEncoder().encode(context.vehicle_id(), {}));
+}
+
+void TrackRelay::take(const slammot_TrackedObjects& objects) {
+  constexpr std::int64_t kPeriodNs = 100'000'000;
   if (relayed_ns_ && std::abs(objects.stamp_ns - *relayed_ns_) < kPeriodNs) return;
   relayed_ns_ = objects.stamp_ns;
-  stored_objects_.write(objects);
+  writer_.write(objects);
 }
 
 void MapStoreService::take(const slammot_SubmapTile& tile) {
@@ -106,6 +121,7 @@ bool MapStoreService::store(const flow::Submap& submap) {
     note(submap);
     stored_submaps_.publish(submap);
     publish_stored_map();
+    traffic_.finish(submap);
   }
   return true;
 }
@@ -123,6 +139,7 @@ void MapStoreService::defer(flow::Submap submap) {
 
 void MapStoreService::retry() {
   while (!unwritten_.empty() && store(unwritten_.front())) unwritten_.pop_front();
+  traffic_.retry();
   context_.status().counter("unwritten_submaps") = unwritten_.size();
 }
 
@@ -143,6 +160,7 @@ void MapStoreService::read_stored() {
                   maps.size() > 1 ? names_of(maps) : "");
   else report_other_vehicles();
   publish_stored_map();
+  if (!readable_.empty()) traffic_.begin_map(map_id_);
 }
 
 /// Logs the vehicles that have maps: a stored map belongs to the id of one vehicle.

@@ -12,12 +12,25 @@
 #include "common/wire/stored_map.hpp"
 #include "common/wire/submap.hpp"
 #include "services/map_store/map_store_service_submaps.hpp"
+#include "services/map_store/map_store_service_traffic.hpp"
 #include "services/map_store/store.hpp"
 
 namespace slammot::map_store {
 
+/// Publishes the last tracks every 0.1 s of the data's clock: a tracking service that restarts
+/// after a crash restores them. Until there are some, it is told that there are none.
+class TrackRelay {
+ public:
+  explicit TrackRelay(app::ServiceContext& context);
+  void take(const slammot_TrackedObjects& objects);
+
+ private:
+  dds::Writer<slammot_TrackedObjects>& writer_;
+  std::optional<std::int64_t> relayed_ns_;  ///< Stamp of the last objects in it.
+};
+
 /// Assembles finished submaps from their tiles, commits them to the database, and publishes
-/// committed submaps.
+/// committed submaps, and the lanes and walkways of what moved meanwhile.
 class MapStoreService {
  public:
   struct Settings {
@@ -38,7 +51,7 @@ class MapStoreService {
   MapStoreService(app::ServiceContext& context, const Settings& settings);
 
  private:
-  void relay(const slammot_TrackedObjects& objects);
+  void read_inputs();
   void take(const slammot_SubmapTile& tile);
   bool store(const flow::Submap& submap);
   void defer(flow::Submap submap);
@@ -54,8 +67,8 @@ class MapStoreService {
   Store store_;
   wire::SubmapAssembler assembler_;
   StoredSubmaps stored_submaps_;
-  dds::Writer<slammot_TrackedObjects>& stored_objects_;
-  std::optional<std::int64_t> relayed_ns_;  ///< Stamp of the last objects in it.
+  TrafficOfSubmaps traffic_;
+  TrackRelay relay_;
   dds::Writer<slammot_StoredMap>& stored_map_;
   std::deque<flow::Submap> unwritten_;
   std::set<flow::SubmapId> readable_;

@@ -17,6 +17,12 @@ constexpr std::string_view kSchema =
     " first_stamp_ns INTEGER NOT NULL, last_stamp_ns INTEGER NOT NULL, record BLOB NOT NULL,"
     " PRIMARY KEY (vehicle_id, map_id, submap_id))";
 
+// Older programs do not know this table, and read a database with it.
+constexpr std::string_view kTrafficSchema =
+    "CREATE TABLE IF NOT EXISTS traffic ("
+    " vehicle_id TEXT NOT NULL, map_id INTEGER NOT NULL, submap_id INTEGER NOT NULL,"
+    " record BLOB NOT NULL, PRIMARY KEY (vehicle_id, map_id, submap_id))";
+
 /// The map to which a submap was added last.
 std::int64_t latest_map(sqlite3* database, std::string_view vehicle_id) {
   Statement query(database,
@@ -82,6 +88,7 @@ std::optional<std::string> Store::prepare(const MapStoreConfig& config) {
     if (version.integer(0) == 1)
       Statement(database, "ALTER TABLE submap RENAME COLUMN drive TO map_id").step();
     Statement(database, kSchema).step();
+    Statement(database, kTrafficSchema).step();
     Statement(database, "PRAGMA user_version = " + std::to_string(kSchemaVersion)).step();
   } catch (const SqliteError& error) { return error.what(); }
   return std::nullopt;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/flow/submap.hpp"
+#include "common/traffic/traffic_map.hpp"
 #include "services/map_store/map_store_config.hpp"
 
 struct sqlite3;
@@ -52,6 +53,18 @@ class Store {
   /// Makes a map the vehicle's latest one. False if there is no such map, or on a fault
   /// (last_fault() is then not empty).
   bool make_latest(std::string_view vehicle_id, flow::MapId map_id);
+
+  /// Stores what moved while the submap was in use, in its frame; it is added to what the submap
+  /// has already. False on a fault (last_fault() is then not empty).
+  bool add_traffic(std::string_view vehicle_id, flow::MapId map_id, flow::SubmapId submap_id,
+                   std::vector<traffic::FreeStream> streams);
+
+  struct StoredTraffic {
+    flow::SubmapId submap_id;
+    std::optional<std::vector<traffic::FreeStream>> streams;  ///< nullopt: damaged.
+  };
+  /// Traffic of a map, by ascending submaps. On a fault last_fault() is not empty.
+  std::vector<StoredTraffic> traffic(std::string_view vehicle_id, flow::MapId map_id);
 
   /// All vehicles with submaps, sorted.
   std::vector<std::string> vehicles();

@@ -3,18 +3,11 @@
 #include <algorithm>
 #include <cstring>
 
-#include <zlib.h>
-
+#include "services/map_store/blob.hpp"
 #include "submap_record.pb.h"
 
 namespace slammot::map_store {
 namespace {
-
-constexpr int kDeflateLevel = 6;
-/// Greater than any record; limits the allocation for a damaged blob.
-constexpr std::size_t kMaxRecordBytes = std::size_t{256} << 20;
-/// No zlib stream holds more than 1032 times its own length.
-constexpr std::size_t kMaxDeflateRatio = 1032;
 
 void set_pose(const geometry::Pose2& pose, PoseRecord& record) {
   record.set_x_m(pose.x_m);
@@ -133,33 +126,10 @@ flow::Submap from_record(const SubmapRecord& record) {
   return submap;
 }
 
-/// Blob: length of the record in 4 bytes, little-endian, then its zlib stream.
-std::optional<std::string> inflated(std::string_view blob) {
-  if (blob.size() < 4) return std::nullopt;
-  std::size_t length = 0;
-  for (int i = 3; i >= 0; --i)
-    length = length << 8 | static_cast<std::uint8_t>(blob[static_cast<std::size_t>(i)]);
-  if (length > std::min(kMaxRecordBytes, kMaxDeflateRatio * blob.size())) return std::nullopt;
-  std::string bytes(length, '\0');
-  uLongf written = length;
-  const int result = uncompress(reinterpret_cast<Bytef*>(bytes.data()), &written,
-                                reinterpret_cast<const Bytef*>(blob.data() + 4), blob.size() - 4);
-  if (result != Z_OK || written != length) return std::nullopt;
-  return bytes;
-}
-
 }  // namespace
 
 std::string to_blob(const flow::Submap& submap) {
-  const std::string bytes = to_record(submap).SerializeAsString();
-  uLongf written = compressBound(bytes.size());
-  std::string blob(4 + written, '\0');
-  for (std::size_t i = 0; i < 4; ++i) blob[i] = static_cast<char>(bytes.size() >> (8 * i) & 0xFF);
-  compress2(reinterpret_cast<Bytef*>(blob.data() + 4), &written,
-            reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
-            kDeflateLevel);  // cannot fail: the buffer has the size given by compressBound()
-  blob.resize(4 + written);
-  return blob;
+  return deflated(to_record(submap).SerializeAsString());
 }
 
 std::optional<flow::Submap> from_blob(std::string_view blob) {

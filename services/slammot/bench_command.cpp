@@ -98,14 +98,15 @@ std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& opt
   return services;
 }
 
-/// Writes the stored map, if there is one, to where map_store reads it.
+/// Writes the stored map with what moved in it, if there is one, to where map_store reads it.
 std::optional<files::Error> provide_map(const Job& job, const BenchOptions& options,
                                         const std::filesystem::path& state_folder) {
   if (options.map.empty()) return std::nullopt;
   const auto stored = read_stored_map(options.map, job.profile.localization.map.cell_size_m);
   if (!stored) return stored.error();
   print(options, files::text("map:      %zu submaps of %s\n", stored->size(), options.map.c_str()));
-  return write_stored_map(state_folder, *stored, kVehicle);
+  if (auto fault = write_stored_map(state_folder, *stored, kVehicle)) return fault;
+  return copy_traffic(options.map, state_folder);
 }
 
 /// Waits until the drive has ended or is interrupted. Returns a message if a service keeps failing.
@@ -239,6 +240,10 @@ int bench(const BenchOptions& requested) {
   report.measured = {collector.latencies(), wall_s, duration_s / wall_s,
                      std::max(peak_memory_mb(), peak_memory_of_services_mb())};
   const int exit_code = write(*job, options, collector.record(stamps_ns), report, duration_s);
+  if (options.stores_map) {
+    if (const auto fault = copy_traffic(folder.path(), options.output))
+      return files::fail(fault->message);
+  }
   if (!is_complete && !is_cut_short)
     return files::fail("the last submap did not arrive: the map lacks the end of the drive");
   return exit_code;

@@ -34,7 +34,8 @@ const std::vector<ReplayPlan>& plans() {
            {&topics::kLocalizedScan, &topics::kSubmapTile}),
       plan("loop_closing", {&topics::kStoredSubmapTile},
            {&topics::kGraphCorrection, &topics::kConstraint}),
-      // stored_tracked_objects is a relay: which samples it leaves out depends on timing
+      // stored_tracked_objects is a relay: which samples it leaves out depends on timing, and so
+      // does how often traffic_ways are found
       plan("map_store", {&topics::kSubmapTile}, {&topics::kStoredMap, &topics::kStoredSubmapTile}),
       plan("tracking", {&topics::kSegmentedScan, &topics::kStoredTrackedObjects},
            {&topics::kTrackedObjects, &topics::kScanLabels})};

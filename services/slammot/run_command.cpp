@@ -214,6 +214,9 @@ int run(const RunOptions& run_options) {
   if (options.stores_map) {
     if (const auto fault = write_stored_map(options.output, pipeline.record().submaps()))
       return files::fail(*fault);
+    if (!options.map.empty()) {
+      if (const auto fault = copy_traffic(options.map, options.output)) return files::fail(*fault);
+    }
   }
   write_report(options, pipeline.record());
   print(options, describe_location(pipeline, run_options));

@@ -55,6 +55,20 @@ Result<std::vector<flow::Submap>> read(Store& store, const std::string& name) {
   return submaps;
 }
 
+struct LatestMap {
+  std::string vehicle_id;
+  flow::MapId map_id;
+};
+
+/// None if it has no map.
+std::optional<LatestMap> latest_map_of(Store& store) {
+  const std::vector<std::string> vehicles = store.vehicles();
+  if (vehicles.empty()) return std::nullopt;
+  const std::vector<Store::StoredMap> maps = store.maps(vehicles.front());
+  if (maps.empty()) return std::nullopt;
+  return LatestMap{vehicles.front(), maps.back().map_id};
+}
+
 }  // namespace
 
 Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& path,
@@ -98,6 +112,26 @@ std::optional<Error> write_stored_map(const std::filesystem::path& folder,
     std::filesystem::remove(folder / (std::string(kFileName) + ending), fault);
   std::filesystem::rename(unfinished, folder / kFileName, fault);
   if (fault) return Error{(folder / kFileName).string() + ": " + fault.message()};
+  return std::nullopt;
+}
+
+std::optional<Error> copy_traffic(const std::filesystem::path& path,
+                                  const std::filesystem::path& folder) {
+  auto from = Store::open(file_of(path), {});
+  if (const auto* why = std::get_if<std::string>(&from)) return Error{*why};
+  auto to = Store::open(folder / kFileName, {});
+  if (const auto* why = std::get_if<std::string>(&to)) return Error{*why};
+  Store& source = std::get<Store>(from);
+  Store& target = std::get<Store>(to);
+  const auto old_map = latest_map_of(source);
+  const auto new_map = latest_map_of(target);
+  if (!old_map || !new_map) return std::nullopt;
+  for (Store::StoredTraffic& stored : source.traffic(old_map->vehicle_id, old_map->map_id)) {
+    if (!stored.streams) continue;
+    if (!target.add_traffic(new_map->vehicle_id, new_map->map_id, stored.submap_id,
+                            std::move(*stored.streams)))
+      return Error{(folder / kFileName).string() + ": " + target.last_fault()};
+  }
   return std::nullopt;
 }
 

@@ -26,4 +26,9 @@ std::optional<files::Error> write_stored_map(const std::filesystem::path& folder
 std::optional<files::Error> write_stored_map(const std::filesystem::path& folder,
                                              const std::map<flow::SubmapId, flow::Submap>& submaps);
 
+/// Copies what moved in the latest map of a database (as for read_stored_map) to the one in the
+/// folder, which has its submaps. Damaged records are left out.
+std::optional<files::Error> copy_traffic(const std::filesystem::path& path,
+                                         const std::filesystem::path& folder);
+
 }  // namespace slammot

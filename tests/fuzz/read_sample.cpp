@@ -15,6 +15,7 @@
 #include "common/wire/stored_map.hpp"
 #include "common/wire/submap.hpp"
 #include "common/wire/tracked_objects.hpp"
+#include "common/wire/traffic_ways.hpp"
 #include "common/wire/truth.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"
@@ -76,6 +77,12 @@ void read_correction(std::string_view cdr) {
   deserializer.read(cdr, [](const slammot_GraphCorrection& part) { (void)assembler.add(part); });
 }
 
+void read_ways(std::string_view cdr) {
+  static const Deserializer<slammot_TrafficWays> deserializer(dds::topics::kTrafficWays);
+  static wire::TrafficWaysAssembler assembler;
+  deserializer.read(cdr, [](const slammot_TrafficWays& part) { (void)assembler.add(part); });
+}
+
 void read_tile(std::string_view cdr) {
   static const Deserializer<slammot_SubmapTile> deserializer(dds::topics::kSubmapTile);
   static wire::SubmapAssembler assembler;
@@ -103,7 +110,8 @@ void read_sample(std::string_view bytes) {
       +[](std::string_view cdr) { read_with(kCommand, cdr); },
       +[](std::string_view cdr) { read_with(kReply, cdr); },
       +[](std::string_view cdr) { read_correction(cdr); },
-      +[](std::string_view cdr) { read_tile(cdr); }};
+      +[](std::string_view cdr) { read_tile(cdr); },
+      +[](std::string_view cdr) { read_ways(cdr); }};
   if (bytes.empty()) return;
   const auto topic = static_cast<unsigned char>(bytes.front());
   kReaders[topic % kReaders.size()](bytes.substr(1));

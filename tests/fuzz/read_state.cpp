@@ -5,14 +5,17 @@
 
 #include <zlib.h>
 
+#include "common/traffic/ways.hpp"
 #include "services/gateway/protocol.hpp"
 #include "services/localization/byte_stream.hpp"
 #include "services/localization/localizer.hpp"
 #include "services/map_store/store.hpp"
 #include "services/map_store/submap_record.hpp"
+#include "services/map_store/traffic_record.hpp"
 #include "tests/fuzz/edits.hpp"
 #include "tests/fuzz/scratch_file.hpp"
 #include "tests/fuzz/targets.hpp"
+#include "tests/support/example_streams.hpp"
 #include "tests/support/example_submap.hpp"
 #include "tests/support/localizer_drive.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -29,6 +32,17 @@ void require_usable(const flow::Submap& submap) {
           "a submap can be stored again");
 }
 
+void require_usable(const std::vector<traffic::FreeStream>& streams) {
+  traffic::TrafficMap map(2000);
+  map.add(streams, {1.0, 2.0, 0.5});
+  for (const traffic::Way& way : traffic::find_ways(map)) {
+    require(way.points_in_map_m.size() >= 2, "a way has two points");
+    require(std::isfinite(way.confidence), "a way has a confidence");
+  }
+  require(map_store::from_traffic_blob(map_store::to_traffic_blob(streams)).has_value(),
+          "traffic can be stored again");
+}
+
 /// The bytes as the database holds them: so that damage reaches the record behind the compression.
 std::string packed(std::string_view bytes) {
   uLongf size = compressBound(bytes.size());
@@ -42,8 +56,7 @@ std::string packed(std::string_view bytes) {
 }
 
 /// A record of the database before compression.
-std::string example_record() {
-  const std::string blob = map_store::to_blob(testing::example_submap(1, 0, 20));
+std::string unpacked(const std::string& blob) {
   std::uint32_t length = 0;
   std::memcpy(&length, blob.data(), sizeof length);
   std::string record(length, '\0');
@@ -98,6 +111,8 @@ std::string example_database() {
     for (const std::uint32_t id : {0U, 1U}) {
       const auto put = store.put("car", testing::example_submap(id, 0, 20));
       require(put == map_store::PutResult::kStored, "the example is stored");
+      require(store.add_traffic("car", {5}, {id}, testing::example_streams()),
+              "its traffic is stored");
     }
   }
   return file_content(file);
@@ -118,10 +133,20 @@ void read_checkpoint(std::string_view bytes) {
 }
 
 void read_submap(std::string_view bytes) {
-  static const std::string example = example_record();
+  static const std::string example =
+      unpacked(map_store::to_blob(testing::example_submap(1, 0, 20)));
   for (const std::string& blob :
        {std::string(bytes), packed(bytes), packed(edited(example, bytes))}) {
     if (const auto submap = map_store::from_blob(blob)) require_usable(*submap);
+  }
+}
+
+void read_submap_traffic(std::string_view bytes) {
+  static const std::string example =
+      unpacked(map_store::to_traffic_blob(testing::example_streams()));
+  for (const std::string& blob :
+       {std::string(bytes), packed(bytes), packed(edited(example, bytes))}) {
+    if (const auto streams = map_store::from_traffic_blob(blob)) require_usable(*streams);
   }
 }
 
@@ -138,6 +163,11 @@ void read_map_database(std::string_view bytes) {
   auto& store = std::get<map_store::Store>(opened);
   for (const std::string& vehicle : store.vehicles()) {
     (void)store.maps(vehicle);
+    for (const map_store::Store::StoredMap& map : store.maps(vehicle)) {
+      for (const auto& stored : store.traffic(vehicle, map.map_id)) {
+        if (stored.streams) require_usable(*stored.streams);
+      }
+    }
     for (const flow::SubmapId id : store.list(vehicle)) {
       if (const auto submap = store.get(vehicle, id)) require_usable(*submap);
     }

@@ -25,6 +25,7 @@
 #include "common/wire/stored_map.hpp"
 #include "common/wire/submap.hpp"
 #include "common/wire/tracked_objects.hpp"
+#include "common/wire/traffic_ways.hpp"
 #include "common/wire/truth.hpp"
 #include "tests/support/values.hpp"
 
@@ -128,6 +129,11 @@ class EveryTopic {
       const flow::GraphCorrection correction{1, {1.0, 2.0, 3.0}, {{{0}, {}}, {{1}, {}}}};
       wire::GraphCorrectionEncoder().encode(
           kVehicle, correction, [&](const slammot_GraphCorrection& part) { writer.write(part); });
+    });
+    add(topics::kTrafficWays, [](auto& writer) {
+      const traffic::TrafficWays ways{1, 2, {7}, {testing::way(traffic::Mover::kBicycle, 5)}};
+      wire::TrafficWaysEncoder().encode(
+          kVehicle, ways, [&](const slammot_TrafficWays& part) { writer.write(part); });
     });
   }
 

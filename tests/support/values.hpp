@@ -10,6 +10,7 @@
 #include "common/flow/submap.hpp"
 #include "common/flow/tracked_objects.hpp"
 #include "common/sensing/scan.hpp"
+#include "common/traffic/way.hpp"
 
 /// Values in which every member differs from its default and from the others, so that a member left
 /// behind shows.
@@ -207,6 +208,20 @@ inline flow::Submap submap(Random& random, std::uint32_t submap_id, std::uint32_
   for (std::size_t i = 0; i < flow::kMostHeadingsOfSubmap; ++i)
     map.headings.push_back({number_f(random), number_f(random), 0.05F});
   return map;
+}
+
+/// A piece of a lane along x, whose members depend on the number of its points.
+inline traffic::Way way(traffic::Mover mover, int points) {
+  traffic::Way made;
+  made.mover = mover;
+  made.line = points + 1;
+  made.speed_mps = points + 0.25;
+  made.speed_spread_mps = 0.5;
+  made.width_m = 2.75;
+  made.tracks = points + 0.5;
+  made.confidence = 0.625;
+  for (int i = 0; i < points; ++i) made.points_in_map_m.emplace_back(i + 0.125, -i - 0.5);
+  return made;
 }
 
 }  // namespace slammot::testing

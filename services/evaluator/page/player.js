@@ -22,7 +22,7 @@ class Player {
     this.recording = recording;
     this.replay = new Replay(recording);
     this.camera = new Camera();
-    if (recording.header.lanes.length) LAYERS.lanes = ["Lanes and walkways", 0.7];
+    if (!recording.header.lanes.length) delete LAYERS.lanes;
     this.options = readOptions(this.camera);
     if (!location.hash.includes("l=")) this.options.layers.graph = 0.8;
     this.isDirty = true;

@@ -126,6 +126,7 @@ export class Replay {
     this.trails = new Map();
     this.exaggeration = 1; // of standard deviations
     this.graph = recording.header.graph;
+    this.lanes = recording.header.lanes;
     this.go(0);
   }
 

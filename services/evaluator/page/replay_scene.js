@@ -1,4 +1,4 @@
-// The scene of the live view with the map as one picture, lanes, the whole way, and where the pose was doubtful.
+// The scene of the live view with the map as one picture, the whole way, and where the pose was doubtful.
 import { Ground } from "./ground.js";
 import { Scene } from "./scene.js";
 
@@ -33,27 +33,7 @@ export class ReplayScene extends Scene {
     super(canvas, replay, (gl) => new PictureLayer(gl, replay.recording.header.map, onLoad));
   }
 
-  /** Lanes, cycle lanes and walkways as wide as they are used, fainter where few objects went; an arrow in the middle of each. */
-  addLanes(alpha) {
-    for (const { color: name, directed, width, confidence, points } of this.world.recording.header.lanes) {
-      const color = this.colors[name];
-      const own = points.map((value, i) => value - (i % 2 ? this.camera.y : this.camera.x));
-      this.shapes.strip(own, 0.02, color, () => 0.18 * confidence * alpha, width / this.camera.metresPerPixel());
-      this.shapes.strip(own, 0.03, color, () => (0.2 + 0.6 * confidence) * alpha, 1.3 * this.scale);
-      if (directed) this.addArrow(own, color, (0.2 + 0.6 * confidence) * alpha);
-    }
-  }
-
-  addArrow(points, color, alpha) {
-    const end = 2 * Math.floor(points.length / 4);
-    const [x, y] = points.slice(end, end + 2);
-    const along = Math.atan2(y - points[end - 1], x - points[end - 2]);
-    for (const side of [2.6, -2.6])
-      this.shapes.line([x + Math.cos(along + side), y + Math.sin(along + side)], [x, y], 0.03, color, alpha, 1.3 * this.scale);
-  }
-
   addWay(alpha) {
-    if (this.layers.lanes > 0) this.addLanes(this.layers.lanes);
     const { is, header } = this.world.recording;
     const strip = (begin, end, color, strength, width) => {
       const points = [];

@@ -173,4 +173,4 @@ setInterval(() => writeOptions(camera, options), ADDRESS_PERIOD_MS);
 requestAnimationFrame(frame);
 
 // For the tests of the page, and for the curious.
-window.slammot = { world, camera, options, connection, playback, map: scene.map, state: () => state(performance.now()), frames: () => frames };
+window.slammot = { world, camera, options, connection, playback, scene, map: scene.map, state: () => state(performance.now()), frames: () => frames };

@@ -2,7 +2,7 @@
 // are drawn, also where that is slow.
 
 export const LAYERS = {
-  so: ["Stationary map", 1], free: ["Free space", 1], mo: ["Moving-object map", 0.8], scan: ["Scan", 1],
+  so: ["Stationary map", 1], free: ["Free space", 1], mo: ["Moving-object map", 0.8], lanes: ["Lanes and walkways", 0.7], scan: ["Scan", 1],
   tracks: ["Tracks", 1], tentative: ["Tentative tracks", 0], labels: ["Labels", 1], trails: ["Trails", 1],
   predictions: ["Predicted paths", 1], uncertainty: ["Uncertainty, 95 %", 1], way: ["Way driven", 1],
   graph: ["Pose graph and closures", 0], grid: ["Grid", 1],

@@ -1,4 +1,4 @@
-// Draws the world: ground, maps, scan, way, graph, tracks and vehicle.
+// Draws the world: ground, maps, lanes, scan, way, graph, tracks and vehicle.
 import { apply, compose, ellipse, multiply, placed, sigmas } from "./geometry.js";
 import { Vertices } from "./gl.js";
 import { Shapes } from "./shapes.js";
@@ -7,6 +7,8 @@ import { CLASSES, THEMES } from "./theme.js";
 const VEHICLE = { length: 4.2, width: 1.8, height: 1.3 };
 const ELLIPSE_SIGMAS = sigmas(0.95);
 const PREDICTION_S = 1; // of the velocity's arrow
+const LANES_REACH = 4; // times the camera's distance: farther lanes are not drawn
+const LANE_LENGTH_M = 25; // of a piece, at most
 const CONTOUR_GAP_M = 1.2; // between its points nothing was seen
 
 export class Scene {
@@ -48,6 +50,7 @@ export class Scene {
     if (layers.scan > 0) this.drawFans(matrix);
     this.map.drawLive(this.shapes, matrix, camera, colors, { so: layers.so }, this.pointSize(0.16));
     this.shapes.begin(camera.metresPerPixel());
+    if (layers.lanes > 0) this.addLanes(layers.lanes);
     if (layers.graph > 0) this.addGraph(layers.graph);
     if (layers.way > 0) this.addWay(layers.way);
     if (layers.tracks > 0) this.addTracks(options.selected, layers.tracks);
@@ -106,6 +109,28 @@ export class Scene {
     const points = way.map((value, i) => value - (i % 2 ? this.camera.y : this.camera.x));
     if (vehicle) points.push(vehicle[0] - this.camera.x, vehicle[1] - this.camera.y);
     this.shapes.strip(points, 0.05, this.colors.way, () => 0.85 * alpha, 2.2 * this.scale);
+  }
+
+  /** Lanes, cycle lanes and walkways as wide as they are used, fainter where few objects went; an arrow in the middle of each. */
+  addLanes(alpha) {
+    const reach = LANES_REACH * this.camera.distance + LANE_LENGTH_M;
+    for (const { color: name, directed, width, confidence, points } of this.world.lanes) {
+      const middle = 2 * Math.floor(points.length / 4);
+      if (Math.hypot(points[middle] - this.camera.x, points[middle + 1] - this.camera.y) > reach) continue;
+      const color = this.colors[name];
+      const own = points.map((value, i) => value - (i % 2 ? this.camera.y : this.camera.x));
+      this.shapes.strip(own, 0.02, color, () => 0.18 * confidence * alpha, (width / this.camera.metresPerPixel()) * this.scale);
+      this.shapes.strip(own, 0.03, color, () => (0.2 + 0.6 * confidence) * alpha, 1.3 * this.scale);
+      if (directed) this.addLaneArrow(own, color, (0.2 + 0.6 * confidence) * alpha);
+    }
+  }
+
+  addLaneArrow(points, color, alpha) {
+    const end = 2 * Math.floor(points.length / 4);
+    const [x, y] = points.slice(end, end + 2);
+    const along = Math.atan2(y - points[end - 1], x - points[end - 2]);
+    for (const side of [2.6, -2.6])
+      this.shapes.line([x + Math.cos(along + side), y + Math.sin(along + side)], [x, y], 0.03, color, alpha, 1.3 * this.scale);
   }
 
   addGraph(alpha) {

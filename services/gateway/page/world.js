@@ -5,6 +5,7 @@ import { readPoints, readPositions } from "./protobuf.js";
 const TRAIL_S = 8;
 const PLOT_S = 30;
 const STALE_MS = 1500;
+const COLOR_OF_WAY = { lane: "car", cycle_lane: "bicycle", walkway: "pedestrian" };
 const seconds = (stamp) => Number(BigInt(stamp) / 1000n) * 1e-6;
 
 export class World {
@@ -17,6 +18,7 @@ export class World {
     this.trails = new Map(); // by id: [[time, x, y]] in odom
     this.plots = new Map(); // by id: [[time, speed, existence]]
     this.way = [];
+    this.lanes = []; // pieces of lanes, cycle lanes and walkways: {color, directed, width, confidence, points}
     this.graph = { submaps: [], constraints: [] };
     this.health = null;
     this.lastScanAt = 0; // by the page's clock
@@ -31,6 +33,7 @@ export class World {
       "/slammot/tracks": (message) => this.takeTracks(message),
       "/trajectory": (bytes) => (this.way = readPositions(bytes)),
       "/slammot/graph": (graph) => this.takeGraph(graph),
+      "/slammot/ways": ({ ways }) => (this.lanes = ways.map((way) => ({ ...way, color: COLOR_OF_WAY[way.kind] ?? "other" }))),
       "/slammot/health": (health) => (this.health = health),
     };
   }

@@ -56,6 +56,15 @@ async def test_selection(page):
           "a click on a track shows what is known about it")
 
 
+async def test_lanes(page):
+    check(await page.comes_to("slammot.world.lanes.length > 0", 60), "there are lanes or walkways")
+    strips = ("(() => { const { options, scene, camera } = slammot; const before = options.layers.lanes; options.layers.lanes = %s;"
+              "scene.draw(camera, options, 0); options.layers.lanes = before; return scene.shapes.lines.count; })()")
+    hidden, shown, lanes = [await page.value(script) for script in (strips % 0, strips % 1, "slammot.world.lanes.length")]
+    check(shown >= hidden + 2 * lanes, f"{lanes} pieces of lanes and walkways are drawn, and can be hidden")
+    check(await page.value("document.querySelector('[data-layer=lanes]') !== null"), "they are a layer")
+
+
 async def test_disconnection(page):
     before = await page.value("slammot.connection.receivedBytes")
     await page.value("slammot.connection.socket.close()")
@@ -84,6 +93,7 @@ async def main(options):
                 await comes_alive(page, live, "#c=dark")
                 await test_controls(page)
                 await test_selection(page)
+                await test_lanes(page)
                 await test_disconnection(page)
             check(not [fault for fault in page.faults if "ERR_CONNECTION" not in fault], f"no errors {page.faults[:3]}")
 

@@ -16,7 +16,7 @@ import python_environment
 from recorded_drive import record_drive
 
 ALWAYS = {"/scan", "/scan/points", "/tracks", "/pose", "/trajectory", "/tf", "/map/stationary", "/map/moving", "/slammot/tracks",
-          "/slammot/pose", "/slammot/graph"}
+          "/slammot/pose", "/slammot/graph", "/map/ways", "/slammot/ways"}
 
 
 class Schemas:
