@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/files/live_plan.hpp"
 #include "common/files/log_formats.hpp"
 #include "common/files/sorted_records.hpp"
 
@@ -141,6 +142,7 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path,
     return Error{path.string() + ": " + fault->message};
   LogPlan plan = survey.conclude(options.fallback_field_of_view_rad, wish);
   plan.scans_are_sorted = sorted_by.has_value();
+  if (options.is_as_live) plan = as_live(std::move(plan));
   if (first_pass->has_kept_all) {
     CarmenLog log(std::move(first_pass->records), plan, options);
     log.kept_ = std::move(first_pass->kept);

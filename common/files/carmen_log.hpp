@@ -34,6 +34,7 @@ struct CarmenLogOptions {
   geometry::Pose2 fallback_base_from_laser;              ///< If the log has no mounting.
   TopicOptions topics;                                   ///< For logs with several candidates.
   bool uses_all_scanners = false;  ///< False: only the main scanner's scans are returned.
+  bool is_as_live = false;         ///< True: as live sensors publish it. See as_live().
   bool reads_profiles = false;     ///< True: scans of LogPlan::profile_scanners are returned, too.
   std::size_t most_kept_bytes = std::size_t{48} << 20;  ///< Of records kept by open(): 15 min at 40
                                                         ///< Hz; larger logs are read twice.

@@ -103,6 +103,8 @@ struct LogPlan {
   std::vector<std::uint32_t> odom_lines_before_scan;  ///< One a scan, since the scan before: gives
                                                       ///< ODOM lines a time if stamps are replaced.
   OdometrySource odometry = OdometrySource::kNone;
+  OdometrySource recorded_odometry = OdometrySource::kNone;  ///< The same whether it is of use or
+                                                             ///< not.
   OdometryRecordKind odometry_lines = OdometryRecordKind::kOdom;  ///< Which lines count as ODOM.
   std::size_t odometry_held_scans = 0;  ///< Odometry comes less often than scans, which repeat its
                                         ///< last pose, at most for so many scans while the vehicle

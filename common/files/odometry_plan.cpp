@@ -191,7 +191,7 @@ OdometrySource odometry_source_of(const ScannerSurvey& scanner, const OdometryLi
 void plan_odometry(const ScannerSurvey& scanner, const OdometryLines& lines,
                    double fallback_field_of_view_rad, LogPlan& plan) {
   plan.odometry_held_scans = scanner.held_poses.most_scans();
-  plan.odometry = odometry_source_of(scanner, lines, plan);
+  plan.odometry = plan.recorded_odometry = odometry_source_of(scanner, lines, plan);
   if (plan.odometry == OdometrySource::kNone) return;
   remove_noise_of_odometry_stamps(lines, plan);
   const std::vector<sensing::Odometry> odometry = stamped_odometry_of(scanner, lines, plan);

@@ -271,6 +271,23 @@ OdometryBelief with_first_wheels(OdometryBelief belief) {
   return belief;
 }
 
+OdometryBelief with_retimed_wheels(OdometryBelief belief, const OdometryBeliefConfig& config) {
+  const OdometryBelief fresh;
+  belief.weights = fresh.weights;
+  belief.last = fresh.last;
+  belief.factors = {};
+  belief.factors.way = config.way_at_start;
+  belief.estimator = WheelFactorEstimator(belief.factors);
+  belief.log_odds = fresh.log_odds;
+  belief.log_odds_of_factors = fresh.log_odds_of_factors;
+  belief.disbeliefs = fresh.disbeliefs;
+  belief.disbelieved_s = fresh.disbelieved_s;
+  belief.is_disbelieved = fresh.is_disbelieved;
+  belief.recalibrated_scans = fresh.recalibrated_scans;
+  belief.last_duration_s = belief.previous_duration_s = 0.0;
+  return belief;
+}
+
 OdometryBelief with_wheels(OdometryBelief belief, const Pose2& by_wheels, double duration_s) {
   const bool count_again = belief.last_duration_s > 0.0 && count_nothing(belief.last_by_wheels) &&
                            !count_nothing(by_wheels);

@@ -191,6 +191,10 @@ bool count_nothing(const geometry::Pose2& by_wheels);
 /// it was, and how it accelerated, is not known.
 OdometryBelief with_first_wheels(OdometryBelief belief);
 
+/// State before the first step of odometry that is read at another time than before: all that was
+/// concluded of it is forgotten.
+OdometryBelief with_retimed_wheels(OdometryBelief belief, const OdometryBeliefConfig& config);
+
 /// State after a step with this odometry. What wheels were disbelieved for is over when they
 /// counted nothing at the last step and count again: comparisons decide anew.
 OdometryBelief with_wheels(OdometryBelief belief, const geometry::Pose2& by_wheels,

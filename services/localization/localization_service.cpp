@@ -21,6 +21,12 @@ using namespace std::chrono_literals;
 /// Turn of the loop, at least.
 constexpr auto kTurn = 10ms;
 
+LocalizerConfig config_of(const LocalizationService::Settings& settings) {
+  LocalizerConfig config = settings.config;
+  config.odometry.watches_lateness = !settings.log_is_examined;
+  return config;
+}
+
 std::filesystem::path checkpoint_path(const app::ServiceOptions& options) {
   return app::state_path(options, "localization", app::StateOf::kVehicle, ".checkpoint");
 }
@@ -40,6 +46,9 @@ void LocalizationService::add_options(CLI::App& command_line, Settings& settings
           "With --continue-map: without news of that map for so long [s], a drive begins its own")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 3600.0));
+  command_line.add_flag("--examined-log", settings.log_is_examined,
+                        "The scans are of a log that ingest has examined as a whole: lateness of "
+                        "odometry is not looked for while driving");
   command_line
       .add_option("--drive-id", settings.drive_ids,
                   "Ids of its drives, in their order, in place of the clock's: to repeat a drive")
@@ -48,8 +57,8 @@ void LocalizationService::add_options(CLI::App& command_line, Settings& settings
 
 LocalizationService::LocalizationService(app::ServiceContext& context, const Settings& settings)
     : context_(context),
-      config_(settings.config),
-      localizer_(settings.config),
+      config_(config_of(settings)),
+      localizer_(config_),
       scans_(context),
       submaps_(context),
       checkpoint_(checkpoint_path(context.options())) {
@@ -234,8 +243,10 @@ void LocalizationService::localize(const WaitingScan& waiting) {
   const app::Stopwatch stopwatch(context_.status().latency("localize"));
   const bool was_lost = localizer_.is_lost();
   const std::uint64_t astray_before = localizer_.counters().astray;
+  const std::uint64_t retimed_before = localizer_.counters().retimed_odometry;
   auto localized = localizer_.localize(scan);
   tell_whereabouts(was_lost, astray_before);
+  tell_of_lateness(retimed_before);
   if (localized) {
     localized->map_id = *drive_.map_id;
     localized->odom_id = drive_.odom_id;
@@ -264,6 +275,13 @@ void LocalizationService::tell_whereabouts(bool was_lost, std::uint64_t astray_b
   if (localizer_.is_lost())
     context_.status().set_trouble("lost", "looks for itself in the local map");
   else context_.status().clear_trouble("lost");
+}
+
+void LocalizationService::tell_of_lateness(std::uint64_t retimed_before) const {
+  if (localizer_.counters().retimed_odometry == retimed_before) return;
+  const double late_ms = 1e3 * localizer_.stamp_offset_s();
+  app::log_warn("odometry is stamped {:.0f} ms {} against the scans: read so from now on",
+                std::abs(late_ms), late_ms > 0.0 ? "late" : "early");
 }
 
 void LocalizationService::publish_finished_submaps() {

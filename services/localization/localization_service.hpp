@@ -32,6 +32,7 @@ class LocalizationService {
                                    ///< begins its own.
     double map_patience_s = 30.0;  ///< Without news of that map, before a drive begins its own all
                                    ///< the same.
+    bool log_is_examined = false;  ///< Odometry of the drive was corrected when its log was opened.
     std::vector<std::uint64_t> drive_ids;  ///< Of its drives, in their order; then the clock's.
   };
   static constexpr const char* kName = "localization";
@@ -95,6 +96,7 @@ class LocalizationService {
   Awaited awaited() const;
   void localize(const WaitingScan& waiting);
   void tell_whereabouts(bool was_lost, std::uint64_t astray_before);
+  void tell_of_lateness(std::uint64_t retimed_before) const;
   void publish_finished_submaps();
   app::CommandResult finish_submap();
 

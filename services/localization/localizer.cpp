@@ -49,6 +49,7 @@ Localizer::Localizer(const LocalizerConfig& config, work::SideWork* help)
       matcher_(config, help),
       mixture_(config),
       keyframes_(config),
+      lateness_(config),
       monitor_(config),
       relocalization_(config),
       covariance_(config),
@@ -112,6 +113,7 @@ void Localizer::place_next(const sensing::LaserScan& scan) {
   before_scan_ = progress();
   if (!place(scan) || was_lost)
     before_scan_.reset();  // labels by a map in which it may be elsewhere are worth nothing
+  watch_lateness(scan);
 }
 
 /// Takes the estimate to a scan after the first. False where its match is not believed.

@@ -21,6 +21,7 @@
 #include "services/localization/expected_objects.hpp"
 #include "services/localization/frozen_scanner.hpp"
 #include "services/localization/keyframe_odometry.hpp"
+#include "services/localization/lateness_watch.hpp"
 #include "services/localization/local_map.hpp"
 #include "services/localization/localization_monitor.hpp"
 #include "services/localization/localizer_config.hpp"
@@ -47,7 +48,7 @@ class Localizer final : public stages::LocalizationStage {
   /// the polar view. The results are the same with it and without. It must outlive this.
   explicit Localizer(const LocalizerConfig& config, work::SideWork* help = nullptr);
 
-  void add_odometry(const sensing::Odometry& sample) override { prediction_.add(sample); }
+  void add_odometry(const sensing::Odometry& sample) override;
 
   void add_fix(const sensing::GnssFix& fix) override { submaps_.measurements().add(fix); }
   void add_heading(const sensing::CompassReading& reading) override {
@@ -166,6 +167,7 @@ class Localizer final : public stages::LocalizationStage {
   void place_next(const sensing::LaserScan& scan);
   bool place(const sensing::LaserScan& scan);
   void compare_odometry(const sensing::LaserScan& scan, const Step& step, const ScanMatch& found);
+  void watch_lateness(const sensing::LaserScan& scan);
   void take_points(const sensing::LaserScan& scan, const Step& step);
   std::optional<ExplainedStep> explain(const sensing::LaserScan& scan, const Step& by_wheels);
   ScanMatch match_or_relocalize(const sensing::LaserScan& scan, const Step& step,
@@ -192,6 +194,7 @@ class Localizer final : public stages::LocalizationStage {
   ScanMatcher matcher_;
   MixtureMatch mixture_;
   KeyframeOdometry keyframes_;
+  LatenessWatch lateness_;
   LocalizationMonitor monitor_;
   Relocalization relocalization_;
   PublishedCovariance covariance_;

@@ -40,8 +40,10 @@ struct OdometryConfig {
   double fastest_mps = 60.0;      ///< A faster step by odometry is a jump.
   double longest_step_s = 2.0;    ///< Without odometry the longest extrapolation; longer gaps are
                                   ///< counted.
-  double far_ahead_s = 60.0;  ///< A stamp so far ahead of those before is believed when a second
-                              ///< one agrees.
+  bool watches_lateness = true;  ///< Finds odometry's lateness by pairs of scans while driving. Off
+                                 ///< where a log was examined before.
+  double far_ahead_s = 60.0;     ///< A stamp so far ahead of those before is believed when a second
+                                 ///< one agrees.
 };
 
 /// Search by correlation around a vague prediction, before the match.

@@ -29,6 +29,7 @@ struct LocalizerCounters {
   std::uint64_t rough_odometry = 0;  ///< Steps whose odometry was off by several of its sigmas,
   std::uint64_t disbelieved_odometry = 0;   ///< and such as it told nothing of.
   std::uint64_t recalibrations = 0;         ///< Way and turn factors of odometry set anew.
+  std::uint64_t retimed_odometry = 0;       ///< Stamps of odometry found late or early.
   std::uint64_t gaps = 0;                   ///< Steps longer than longest_step_s.
   std::uint64_t fallback_integrations = 0;  ///< Labels came too late or not at all.
   std::uint64_t restored_points = 0;        ///< Given back by tracking.
@@ -55,6 +56,7 @@ inline std::map<std::string, std::uint64_t> named(const LocalizerCounters& count
           {"rough_odometry", counters.rough_odometry},
           {"disbelieved_odometry", counters.disbelieved_odometry},
           {"recalibrations", counters.recalibrations},
+          {"retimed_odometry", counters.retimed_odometry},
           {"gaps", counters.gaps},
           {"fallback_integrations", counters.fallback_integrations},
           {"restored_points", counters.restored_points},

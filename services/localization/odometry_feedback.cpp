@@ -132,6 +132,26 @@ void OdometryPrediction::adopt_wheel_factors() {
   }
 }
 
+sensing::MotionEstimate OdometryPrediction::pivot_at_start() const {
+  sensing::MotionModelConfig of_another_point = motion_of_one_clock_;
+  of_another_point.pivot_prior_m = config_.motion.doubted_pivot_prior_m;
+  return sensing::at_start(of_another_point);
+}
+
+void OdometryPrediction::retime(double late_s, double sigma_s) {
+  sensing::MotionEstimate fresh = sensing::at_start(config_.motion);
+  fresh.calibration[sensing::kStampOffset - 3] = late_s;
+  fresh.covariance(sensing::kStampOffset, sensing::kStampOffset) = sigma_s * sigma_s;
+  fresh.velocity = state_.estimate.velocity;
+  fresh.covariance.bottomRightCorner<2, 2>() = state_.estimate.covariance.bottomRightCorner<2, 2>();
+  state_.estimate = sensing::put_at(fresh, state_.estimate.uncertain_pose());
+  state_.applies_stamp_offset = true;
+  state_.with_pivot = sensing::put_at(pivot_at_start(), state_.estimate.uncertain_pose());
+  state_.applies_pivot = false;
+  state_.innovations = {};
+  state_.belief = sensing::with_retimed_wheels(state_.belief, config_.belief);
+}
+
 /// Learns the stamps' offset beside the estimate, which takes it over once it is certain.
 void OdometryPrediction::learn_stamp_offset(const Step& step, const ScanMatch& match) {
   if (config_.motion.stamp_offset_prior_s == 0.0 || state_.applies_stamp_offset) return;

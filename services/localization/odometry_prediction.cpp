@@ -57,9 +57,7 @@ OdometryPrediction::OdometryPrediction(const LocalizerConfig& config)
   motion_of_one_clock_.stamp_offset_prior_s = 0.0;
   state_.estimate = sensing::at_start(motion_of_one_clock_);
   state_.with_stamp_offset = sensing::at_start(config_.motion);
-  sensing::MotionModelConfig of_another_point = motion_of_one_clock_;
-  of_another_point.pivot_prior_m = config_.motion.doubted_pivot_prior_m;
-  state_.with_pivot = sensing::at_start(of_another_point);
+  state_.with_pivot = pivot_at_start();
   state_.belief.factors.way = config.belief.way_at_start;
   state_.belief.estimator = sensing::WheelFactorEstimator(state_.belief.factors);
 }

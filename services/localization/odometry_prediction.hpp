@@ -170,6 +170,10 @@ class OdometryPrediction {
   /// zero.
   geometry::Vector2 compare(const sensing::OdometryComparison& comparison);
 
+  /// Odometry is so late from the next step on. What was learned of it before is forgotten: it was
+  /// read at the wrong time.
+  void retime(double late_s, double sigma_s);
+
   /// Feedback: how likely the scan is under each explanation, before observe().
   void weigh(const sensing::ExplanationWeights& weights) { state_.belief.weights = weights; }
   /// Weights of the explanations before the scan at hand.
@@ -223,6 +227,7 @@ class OdometryPrediction {
   void go_on_at_velocity(const sensing::MotionEstimate& before, Step& step) const;
   void go_on_without_wheels(Step& step) const;
   void adopt_wheel_factors();
+  sensing::MotionEstimate pivot_at_start() const;
   void take_back_standing(const sensing::OdometryComparison& comparison);
   void learn_wheels(const Step& step, const ScanMatch& match);
   void learn_stamp_offset(const Step& step, const ScanMatch& match);

@@ -88,6 +88,8 @@ std::vector<ServiceProcess> services_for(const Job& job, const BenchOptions& opt
         job.profile_name};
     if (!settings.empty()) arguments.insert(arguments.end(), {"--config", settings});
     if (name == "localization" && !options.map.empty()) arguments.push_back("--continue-map");
+    if (arguments.front() == folder_of_this_program() / "slammot-localization")
+      arguments.push_back("--examined-log");
     const bool is_ingest = name == "ingest";
     if (is_ingest) {
       arguments.insert(arguments.end(), {"--input", options.input, "--speed", options.speed});

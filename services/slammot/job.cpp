@@ -78,6 +78,7 @@ files::Result<OpenedDrive> open_drive(const JobOptions& options) {
   } else {
     files::CarmenLogOptions log_options;
     log_options.topics = options.topics;
+    log_options.is_as_live = options.is_as_live;
     auto log = files::CarmenLog::open(options.input, log_options);
     if (!log) return log.error();
     drive.plan = log->plan();
@@ -175,8 +176,11 @@ files::Result<Job> prepare_job(const JobOptions& options) {
   if (drive->plan.evidence.correction.reverses_beams)
     profile.localization.echoes.sweep_factor_sigma =
         std::max(profile.localization.echoes.sweep_factor_sigma, 1.0);
-  set_initial_odometry_scale(files::way_factor_of(drive->plan), profile.localization);
-  profile.localization.belief.enabled = files::scans_show_motion(drive->plan);
+  profile.localization.odometry.watches_lateness = options.is_as_live;
+  if (!options.is_as_live) {
+    set_initial_odometry_scale(files::way_factor_of(drive->plan), profile.localization);
+    profile.localization.belief.enabled = files::scans_show_motion(drive->plan);
+  }
   const double sweep_s = files::sweep_s_for(drive->plan.figures, profile.ingest.sweep_s);
   if (auto fault = files::prepare_output_folder(options.output)) return *fault;
   if (auto fault = files::find_lack_of_space(

@@ -28,6 +28,7 @@ struct JobOptions {
   std::string speed = "max";     ///< Multiple of the recorded rate, or "max".
   std::filesystem::path map{};   ///< Stored map in which the drive begins; may be empty.
   bool stores_map = false;       ///< Writes the map into the output folder.
+  bool is_as_live = false;       ///< Takes a log as live sensors publish it.
   bool is_quiet = false;         ///< Prints warnings and faults only.
   bool skips_report = false;     ///< Writes no report.html.
 };

@@ -238,6 +238,9 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->type_name("N")
       ->check(CLI::Range(1, kMaxIterations))
       ->capture_default_str();
+  command->add_flag(
+      "--as-live", options->job.is_as_live,
+      "Take the log as live sensors publish it: nothing is corrected before the drive");
   add_street_options(*command, options->streets);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
