@@ -9,24 +9,6 @@ namespace {
 constexpr std::int64_t kLongestGapNs = static_cast<std::int64_t>(kLongestGapS * 1e9);
 constexpr double kLongestStepM = 60.0;  // within the longest gap; a farther one is a fault
 
-void count_kind(const flow::ClassProbabilities& probability,
-                std::array<double, kMovers>& kind_sum) {
-  const auto& [pedestrian, bicycle, car, truck_or_bus] = probability;
-  const auto add = [&](Mover mover, double share) {
-    kind_sum[static_cast<std::size_t>(mover)] += share;
-  };
-  add(Mover::kPedestrian, pedestrian);
-  add(Mover::kBicycle, bicycle);
-  add(Mover::kVehicle, car + truck_or_bus);
-}
-
-/// The likeliest kind; none if no class was computed.
-std::optional<Mover> likeliest_kind(const std::array<double, kMovers>& kind_sum) {
-  const auto likeliest = std::ranges::max_element(kind_sum);
-  if (*likeliest <= 0.0) return std::nullopt;
-  return static_cast<Mover>(likeliest - kind_sum.begin());
-}
-
 }  // namespace
 
 void TrafficCollector::add(const flow::TrackedObjects& objects) {
@@ -53,7 +35,7 @@ void TrafficCollector::add(const flow::TrackedObjects& objects) {
 }
 
 void TrafficCollector::add(const flow::TrackedObject& object, Track& track) {
-  count_kind(object.class_probability, track.kind_sum);
+  track.kind.add(object.class_probability);
   track.width_sum_m += object.width_m;
   track.scans += 1.0;
   const MoverState state{stamp_ns_, object.position_in_odom_m, object.velocity_in_odom_mps,
@@ -79,7 +61,7 @@ void TrafficCollector::extend(const MoverState& state, Track& track) {
 
 /// Makes streams of the track's states until then. What has not gone far yet waits.
 void TrafficCollector::settle(Track& track, std::int64_t until_ns) {
-  const auto kind = likeliest_kind(track.kind_sum);
+  const auto kind = track.kind.likeliest();
   if (!kind || !track.went_somewhere) {
     if (track.states.size() >= kMostStates)
       track.states.erase(track.states.begin(), track.states.end() - 1);

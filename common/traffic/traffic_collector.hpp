@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -9,6 +8,7 @@
 
 #include "common/flow/submap.hpp"
 #include "common/flow/tracked_objects.hpp"
+#include "common/traffic/mover_evidence.hpp"
 #include "common/traffic/traffic_map.hpp"
 
 namespace slammot::traffic {
@@ -38,7 +38,7 @@ class TrafficCollector {
  private:
   struct Track {
     std::vector<MoverState> states{};  ///< That are in no stream; the first one joins them to it.
-    std::array<double, kMovers> kind_sum{};  ///< Of the class probabilities of all scans.
+    MoverEvidence kind;
     double width_sum_m = 0.0;
     double scans = 0.0;
     std::optional<geometry::Vector2> first_m{};
