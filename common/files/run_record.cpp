@@ -179,13 +179,6 @@ std::optional<geometry::Pose2> RunRecord::last_pose() const {
   return poses_.rbegin()->second.map_from_base;
 }
 
-std::uint64_t RunRecord::accepted_closures() const {
-  return static_cast<std::uint64_t>(std::ranges::count_if(constraints_, [](const auto& entry) {
-    return entry.second.kind == flow::ConstraintKind::kLoop &&
-           entry.second.verdict.state == flow::ClosureState::kAccepted;
-  }));
-}
-
 std::uint64_t RunRecord::confirmed_tracks() const {
   std::set<flow::TrackId> ids;
   for (const auto& [stamp_ns, rows] : tracks_) {

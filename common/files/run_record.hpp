@@ -98,9 +98,8 @@ class RunRecord {
   std::uint64_t confirmed_tracks() const;  ///< Number of distinct confirmed tracks.
 
   /// For progress: pose of the newest scan as published live, nothing before the first one; number
-  /// of closures in the graph; number of confirmed tracks in the newest scan.
+  /// of confirmed tracks in the newest scan.
   std::optional<geometry::Pose2> last_pose() const;
-  std::uint64_t accepted_closures() const;
   std::size_t tracks_now() const { return tracks_.empty() ? 0 : tracks_.rbegin()->second.size(); }
 
   /// Submap pose after the last correction; by odometry if loop closing has not received the

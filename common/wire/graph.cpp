@@ -10,9 +10,6 @@
 namespace slammot::wire {
 namespace {
 
-// A correction overtaken by newer ones never becomes complete.
-constexpr std::size_t kMostIncompleteGraphs = 4;
-
 static_assert(static_cast<int>(flow::ConstraintKind::kOdometric) ==
               slammot_CONSTRAINT_KIND_ODOMETRIC);
 static_assert(static_cast<int>(flow::ConstraintKind::kLoop) == slammot_CONSTRAINT_KIND_LOOP);
@@ -74,6 +71,14 @@ std::string_view fault_of(const slammot_GraphCorrection& part) {
     if (!is_sound_reference(georeference)) return "georeference is not finite";
   }
   return "";
+}
+
+std::vector<flow::CorrectedSubmap> decoded_submaps(const slammot_GraphCorrection& part) {
+  std::vector<flow::CorrectedSubmap> submaps;
+  submaps.reserve(part.submaps._length);
+  for (const slammot_CorrectedSubmap& submap : elements(part.submaps))
+    submaps.push_back({{submap.submap_id}, decode(submap.map_from_submap)});
+  return submaps;
 }
 
 bool is_ascending(const std::vector<flow::CorrectedSubmap>& submaps) {
@@ -149,46 +154,18 @@ void GraphCorrectionEncoder::encode(
   }
 }
 
-GraphCorrectionAssembler::Partial& GraphCorrectionAssembler::partial_of(
-    const slammot_GraphCorrection& part) {
-  const geometry::Pose2 map_from_odom = decode(part.map_from_odom);
-  const auto known = partial_.find(part.sequence_number);
-  if (known != partial_.end()) {
-    Partial& partial = known->second;
-    if (partial.parts.size() == part.part_count && partial.map_from_odom == map_from_odom &&
-        partial.map_id.value == part.map_id)
-      return partial;
-    // A restarted loop closing service counts from the beginning: its corrections replace the old
-    // ones.
-    partial_.erase(known);
-  }
-  if (partial_.size() == kMostIncompleteGraphs) partial_.erase(partial_.begin());
-  return partial_[part.sequence_number] = Partial{
-             {part.map_id},
-             map_from_odom,
-             part.is_untied,
-             std::vector<std::optional<std::vector<flow::CorrectedSubmap>>>(part.part_count)};
-}
-
 GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_GraphCorrection& part) {
   if (const std::string_view fault = fault_of(part); !fault.empty()) return {std::nullopt, fault};
-  Partial& partial = partial_of(part);
-  std::vector<flow::CorrectedSubmap>& submaps = partial.parts[part.part_index].emplace();
-  for (const slammot_CorrectedSubmap& submap : elements(part.submaps)) {
-    submaps.push_back({{submap.submap_id}, decode(submap.map_from_submap)});
-  }
-  const auto has_come = [](const auto& one) { return one.has_value(); };
-  if (!std::all_of(partial.parts.begin(), partial.parts.end(), has_come)) return {};
-
-  flow::GraphCorrection correction{part.sequence_number, partial.map_from_odom, {},
-                                   partial.map_id,       partial.is_untied,     {}};
+  auto complete = parts_.add(part.sequence_number, part.part_index, part.part_count,
+                             {{part.map_id}, decode(part.map_from_odom), part.is_untied},
+                             decoded_submaps(part));
+  if (!complete) return {};
+  if (!is_ascending(complete->items)) return {std::nullopt, "submaps are not in ascending order"};
+  const auto& [map_id, map_from_odom, is_untied] = complete->shared;
+  flow::GraphCorrection correction{part.sequence_number, map_from_odom, std::move(complete->items),
+                                   map_id,               is_untied,     {}};
   for (const slammot_Georeference& georeference : elements(part.georeference))
     correction.georeference = decoded(georeference);
-  for (const auto& one : partial.parts)
-    correction.submaps.insert(correction.submaps.end(), one->begin(), one->end());
-  partial_.erase(part.sequence_number);
-  if (!is_ascending(correction.submaps))
-    return {std::nullopt, "submaps are not in ascending order"};
   return {std::move(correction), ""};
 }
 

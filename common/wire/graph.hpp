@@ -2,13 +2,13 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "common/flow/graph_correction.hpp"
 #include "common/wire/decoded.hpp"
+#include "common/wire/part_collector.hpp"
 #include "idl/mapping.h"
 
 namespace slammot::wire {
@@ -46,16 +46,15 @@ class GraphCorrectionAssembler {
   Added add(const slammot_GraphCorrection& part);
 
  private:
-  struct Partial {
+  struct Shared {
     flow::MapId map_id;
     geometry::Pose2 map_from_odom;
-    bool is_untied;
-    std::vector<std::optional<std::vector<flow::CorrectedSubmap>>> parts;
+    bool is_untied = false;
+
+    bool operator==(const Shared&) const = default;
   };
 
-  Partial& partial_of(const slammot_GraphCorrection& part);
-
-  std::map<std::uint32_t, Partial> partial_;  // by sequence number
+  PartCollector<Shared, flow::CorrectedSubmap> parts_;
 };
 
 }  // namespace slammot::wire

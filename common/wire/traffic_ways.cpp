@@ -1,7 +1,6 @@
 #include "common/wire/traffic_ways.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "common/wire/parts.hpp"
@@ -9,9 +8,6 @@
 
 namespace slammot::wire {
 namespace {
-
-// Ways overtaken by newer ones never become complete.
-constexpr std::size_t kMostIncompleteWays = 4;
 
 static_assert(static_cast<int>(traffic::Mover::kVehicle) == slammot_WAY_KIND_LANE);
 static_assert(static_cast<int>(traffic::Mover::kBicycle) == slammot_WAY_KIND_CYCLE_LANE);
@@ -142,35 +138,15 @@ std::size_t TrafficWaysEncoder::encode(
   return ways.ways.size() - begins.back();
 }
 
-TrafficWaysAssembler::Partial& TrafficWaysAssembler::partial_of(const slammot_TrafficWays& part) {
-  const auto known = partial_.find(part.sequence_number);
-  if (known != partial_.end()) {
-    Partial& partial = known->second;
-    if (partial.parts.size() == part.part_count && partial.stamp_ns == part.stamp_ns &&
-        partial.map_id.value == part.map_id)
-      return partial;
-    partial_.erase(known);  // map_store restarted and counts from the beginning
-  }
-  if (partial_.size() == kMostIncompleteWays) partial_.erase(partial_.begin());
-  return partial_[part.sequence_number] =
-             Partial{part.stamp_ns,
-                     {part.map_id},
-                     std::vector<std::optional<std::vector<traffic::Way>>>(part.part_count)};
-}
-
 TrafficWaysAssembler::Added TrafficWaysAssembler::add(const slammot_TrafficWays& part) {
   if (const std::string_view fault = fault_of_ways(part); !fault.empty())
     return {std::nullopt, fault};
-  Partial& partial = partial_of(part);
-  partial.parts[part.part_index] = decoded_ways(part);
-  if (!std::ranges::all_of(partial.parts, [](const auto& one) { return one.has_value(); }))
-    return {};
-  traffic::TrafficWays ways{part.sequence_number, partial.stamp_ns, partial.map_id, {}};
-  for (auto& one : partial.parts)
-    ways.ways.insert(ways.ways.end(), std::make_move_iterator(one->begin()),
-                     std::make_move_iterator(one->end()));
-  partial_.erase(part.sequence_number);
-  return {std::move(ways), ""};
+  auto complete = parts_.add(part.sequence_number, part.part_index, part.part_count,
+                             {part.stamp_ns, {part.map_id}}, decoded_ways(part));
+  if (!complete) return {};
+  const auto& [stamp_ns, map_id] = complete->shared;
+  return {traffic::TrafficWays{part.sequence_number, stamp_ns, map_id, std::move(complete->items)},
+          ""};
 }
 
 }  // namespace slammot::wire

@@ -3,12 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "common/traffic/traffic_ways.hpp"
+#include "common/wire/part_collector.hpp"
 #include "idl/mapping.h"
 
 namespace slammot::wire {
@@ -44,15 +44,14 @@ class TrafficWaysAssembler {
   Added add(const slammot_TrafficWays& part);
 
  private:
-  struct Partial {
-    std::int64_t stamp_ns;
+  struct Shared {
+    std::int64_t stamp_ns = 0;
     flow::MapId map_id;
-    std::vector<std::optional<std::vector<traffic::Way>>> parts;
+
+    bool operator==(const Shared&) const = default;
   };
 
-  Partial& partial_of(const slammot_TrafficWays& part);
-
-  std::map<std::uint32_t, Partial> partial_;  ///< By sequence number.
+  PartCollector<Shared, traffic::Way> parts_;
 };
 
 }  // namespace slammot::wire

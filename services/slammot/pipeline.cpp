@@ -1,5 +1,6 @@
 #include "services/slammot/pipeline.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "services/slammot/implementations.hpp"
@@ -87,6 +88,15 @@ void Pipeline::close_loops() {
     record_.add(correction);
     record_.add(std::move(*submap));
   }
+}
+
+std::size_t Pipeline::accepted_closures() const {
+  const auto closures = loop_closer_.constraints();
+  return static_cast<std::size_t>(
+      std::ranges::count_if(closures, [](const flow::Constraint& constraint) {
+        return constraint.kind == flow::ConstraintKind::kLoop &&
+               constraint.verdict.state == flow::ClosureState::kAccepted;
+      }));
 }
 
 std::map<std::string, std::map<std::string, std::uint64_t>> Pipeline::counters() const {

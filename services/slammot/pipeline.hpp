@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -48,6 +49,9 @@ class Pipeline {
 
   /// True if the last scan did not match the map.
   bool is_lost() const { return localizer_->is_lost(); }
+
+  /// Closures in the graph now.
+  std::size_t accepted_closures() const;
 
   /// New parts of the map begun after permanent losses.
   std::uint64_t maps_begun() const { return localizer_->maps_begun_astray(); }

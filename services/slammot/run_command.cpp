@@ -89,10 +89,9 @@ class Progress {
     }
     if (!bar_.is_due()) return;
     bar_.show(fraction, driven_s,
-              files::text("%llu scans, %.2f km, %zu tracks, %llu closures",
+              files::text("%llu scans, %.2f km, %zu tracks, %zu closures",
                           static_cast<unsigned long long>(record.scans()), 1e-3 * distance_m_,
-                          record.tracks_now(),
-                          static_cast<unsigned long long>(record.accepted_closures())));
+                          record.tracks_now(), pipeline.accepted_closures()));
   }
   void say(const std::string& line) { bar_.say(line); }
 

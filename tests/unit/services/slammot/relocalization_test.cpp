@@ -117,6 +117,7 @@ TEST(Relocalization, LocatesARobotCarriedWithItsScannerOff) {
   Pipeline pipeline(indoor());
   drive.through(pipeline);
   EXPECT_TRUE(pipeline.is_connected());
+  EXPECT_GT(pipeline.accepted_closures(), 0U);
   EXPECT_LT(drive.worst_at_end_m(pipeline, around(0.0)), 0.3);
 }
 
