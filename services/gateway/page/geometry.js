@@ -50,3 +50,15 @@ export const sigmas = (share) => Math.sqrt(-2 * Math.log(1 - share));
 
 /** Difference of two angles, in (-pi, pi]. */
 export const turn = (from, to) => Math.atan2(Math.sin(to - from), Math.cos(to - from));
+
+/** A polyline [x0, y0, x1, y1, ...] relative to [x, y], with its ends, without points that are closer than `least` to the one kept before. */
+export function thinned(points, [x, y], least) {
+  const kept = [];
+  for (let i = 0; i < points.length; i += 2) {
+    const px = points[i] - x, py = points[i + 1] - y;
+    const isLast = i + 2 >= points.length;
+    if (!isLast && kept.length && Math.hypot(px - kept.at(-2), py - kept.at(-1)) < least) continue;
+    kept.push(px, py);
+  }
+  return kept;
+}

@@ -1,5 +1,5 @@
 // Draws the world: ground, maps, lanes, scan, way, graph, tracks and vehicle.
-import { apply, compose, ellipse, multiply, placed, sigmas } from "./geometry.js";
+import { apply, compose, ellipse, multiply, placed, sigmas, thinned } from "./geometry.js";
 import { Vertices } from "./gl.js";
 import { Shapes } from "./shapes.js";
 import { CLASSES, THEMES } from "./theme.js";
@@ -9,6 +9,8 @@ const ELLIPSE_SIGMAS = sigmas(0.95);
 const PREDICTION_S = 1; // of the velocity's arrow
 const LANES_REACH = 4; // times the camera's distance: farther lanes are not drawn
 const LANE_LENGTH_M = 25; // of a piece, at most
+const LINE_STEP_PX = 3; // of long lines: what is closer looks the same
+const LEAST_BAND_PX = 2; // narrower than this, the line in the middle of a lane covers it
 const CONTOUR_GAP_M = 1.2; // between its points nothing was seen
 
 export class Scene {
@@ -72,6 +74,11 @@ export class Scene {
     return [x - this.camera.x, y - this.camera.y, heading];
   }
 
+  /** A long line relative to the camera, as fine as it can be seen. */
+  polyline(points) {
+    return thinned(points, [this.camera.x, this.camera.y], LINE_STEP_PX * this.camera.metresPerPixel());
+  }
+
   placeOf(pose) {
     return this.relative(compose(pose.map_from_odom, pose.odom_from_base));
   }
@@ -106,7 +113,7 @@ export class Scene {
   addWay(alpha) {
     const { way, vehicle } = this.world;
     if (way.length < 2) return;
-    const points = way.map((value, i) => value - (i % 2 ? this.camera.y : this.camera.x));
+    const points = this.polyline(way);
     if (vehicle) points.push(vehicle[0] - this.camera.x, vehicle[1] - this.camera.y);
     this.shapes.strip(points, 0.05, this.colors.way, () => 0.85 * alpha, 2.2 * this.scale);
   }
@@ -118,15 +125,16 @@ export class Scene {
       const middle = 2 * Math.floor(points.length / 4);
       if (Math.hypot(points[middle] - this.camera.x, points[middle + 1] - this.camera.y) > reach) continue;
       const color = this.colors[name];
-      const own = points.map((value, i) => value - (i % 2 ? this.camera.y : this.camera.x));
-      this.shapes.strip(own, 0.02, color, () => 0.18 * confidence * alpha, (width / this.camera.metresPerPixel()) * this.scale);
+      const own = this.polyline(points);
+      const width_px = width / this.camera.metresPerPixel();
+      if (width_px > LEAST_BAND_PX) this.shapes.strip(own, 0.02, color, () => 0.18 * confidence * alpha, width_px * this.scale);
       this.shapes.strip(own, 0.03, color, () => (0.2 + 0.6 * confidence) * alpha, 1.3 * this.scale);
       if (directed) this.addLaneArrow(own, color, (0.2 + 0.6 * confidence) * alpha);
     }
   }
 
   addLaneArrow(points, color, alpha) {
-    const end = 2 * Math.floor(points.length / 4);
+    const end = Math.max(2, 2 * Math.floor(points.length / 4));
     const [x, y] = points.slice(end, end + 2);
     const along = Math.atan2(y - points[end - 1], x - points[end - 2]);
     for (const side of [2.6, -2.6])
