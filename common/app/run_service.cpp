@@ -76,7 +76,7 @@ int serve(const ServiceDescription& description, const ServiceOptions& options) 
   ServiceContext context(description.name, options);
   const StopSignal stop_signal([&] {
     watchdog.arm();  // also guards against a handler that does not return
-    context.stop();
+    context.request_stop();
   });
   watch_interface(context);
   std::optional<Standby> standby;

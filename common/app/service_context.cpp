@@ -98,6 +98,17 @@ void ServiceContext::stop(int exit_code) {
   stop();
 }
 
+void ServiceContext::request_stop() {
+  if (stops_between_scans_) stop_request_.make(std::chrono::steady_clock::now());
+  else stop();
+}
+
+bool ServiceContext::may_stop_now() {
+  if (!stop_request_.is_made()) return false;
+  stop();
+  return true;
+}
+
 void ServiceContext::count_missed(const InputWatch& input, std::uint32_t samples) {
   if (samples == 0) return;
   const std::string counter = "missed_" + short_name(input.topic_name());
@@ -201,7 +212,10 @@ bool ServiceContext::run_until(const std::function<bool()>& condition) {
 void ServiceContext::run(const std::function<void()>& end) {
   beat();
   report();
-  while (wait_set_.wait(until_next_timer()) != dds::WaitSet::Wake::kStopped) run_due_timers();
+  while (wait_set_.wait(until_next_timer()) != dds::WaitSet::Wake::kStopped) {
+    run_due_timers();
+    if (stop_request_.is_overdue(std::chrono::steady_clock::now())) stop();
+  }
   report_as(ServiceState::kStopping);
   end();
   say_goodbye();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <map>
@@ -18,6 +19,7 @@
 #include "common/app/service_options.hpp"
 #include "common/app/status_board.hpp"
 #include "common/app/status_publisher.hpp"
+#include "common/app/stop_request.hpp"
 #include "common/dds/participant.hpp"
 #include "common/dds/reader.hpp"
 #include "common/dds/wait_set.hpp"
@@ -157,6 +159,15 @@ class ServiceContext {
   void stop(int exit_code);
   int exit_code() const { return exit_code_; }
 
+  /// As stop(), but a service that stops between scans goes on until the next of its moments, for
+  /// at most StopRequest::kLongestWait. From any thread.
+  void request_stop();
+  /// The service names the moments after a scan at which it hands its state over best: the time
+  /// until the next scan is longest. Call it before run().
+  void stop_between_scans() { stops_between_scans_ = true; }
+  /// Such a moment. Whether it stops.
+  bool may_stop_now();
+
   /// Sends its place among the processes of this service and vehicle with each heartbeat, of which
   /// more are sent from now on: others notice the end of this process by their absence.
   void set_role(const StatusPublisher::Role& role);
@@ -223,6 +234,8 @@ class ServiceContext {
   std::vector<std::function<void()>> before_report_;
   std::string last_explanation_;
   bool has_role_ = false;
+  std::atomic<bool> stops_between_scans_ = false;
+  StopRequest stop_request_;
   int exit_code_ = 0;
 };
 

@@ -162,8 +162,8 @@ GraphCorrectionAssembler::Added GraphCorrectionAssembler::add(const slammot_Grap
   if (!complete) return {};
   if (!is_ascending(complete->items)) return {std::nullopt, "submaps are not in ascending order"};
   const auto& [map_id, map_from_odom, is_untied] = complete->shared;
-  flow::GraphCorrection correction{part.sequence_number, map_from_odom, std::move(complete->items),
-                                   map_id,               is_untied,     {}};
+  flow::GraphCorrection correction{
+      part.sequence_number, map_from_odom, std::move(complete->items), map_id, is_untied, {}};
   for (const slammot_Georeference& georeference : elements(part.georeference))
     correction.georeference = decoded(georeference);
   return {std::move(correction), ""};

@@ -69,6 +69,7 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
   }
   drives_.ids.assign(settings.drive_ids.begin(), settings.drive_ids.end());
   read_inputs(context);
+  context.stop_between_scans();
   context.every(kTurn, [this] {
     waiting_.count_turn();
     admit(drives_.gate.judge_held(monotonic_ns()));
@@ -175,7 +176,9 @@ void LocalizationService::take(const slammot_ScanLabels& sample) {
   integrate(*labels);
   context_.note_since_scan("scan_to_map", sample.scan_published_ns);
   localize_waiting();
-  if (drive_.last_done_ns && !localizer_.awaits_labels()) save_checkpoint(*drive_.last_done_ns);
+  if (!drive_.last_done_ns || localizer_.awaits_labels()) return;
+  const bool stops = waiting_.empty() && context_.may_stop_now();
+  if (!stops) save_checkpoint(*drive_.last_done_ns);
 }
 
 bool LocalizationService::is_early(std::int64_t stamp_ns) const {

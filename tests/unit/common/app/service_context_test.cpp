@@ -201,6 +201,34 @@ TEST_F(ContextOnTheBus, EndsTheServiceBeforeItSaysThatItStops) {
   EXPECT_EQ(at_the_end, slammot_SERVICE_STATE_STOPPING);
 }
 
+TEST_F(ContextOnTheBus, StopsAtOnceOnRequestWhereNoMomentIsBetter) {
+  context.after(0ms, [this] {
+    context.request_stop();
+    context.after(0ms, [this] { context.stop(1); });
+  });
+  run();
+  EXPECT_EQ(context.exit_code(), 0);
+}
+
+TEST_F(ContextOnTheBus, StopsOnRequestAtTheNextMomentBetweenScans) {
+  context.stop_between_scans();
+  EXPECT_FALSE(context.may_stop_now());
+  bool came = false;
+  context.after(0ms, [this] { context.request_stop(); });
+  context.after(20ms, [&] { came = context.may_stop_now(); });
+  run();
+  EXPECT_TRUE(came);
+}
+
+TEST_F(ContextOnTheBus, StopsOnRequestAlsoWhereNoScansCome) {
+  context.stop_between_scans();
+  context.every(10ms, [] {});
+  const auto begin = std::chrono::steady_clock::now();
+  context.after(0ms, [this] { context.request_stop(); });
+  run();
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, StopRequest::kLongestWait);
+}
+
 TEST_F(ContextOnTheBus, StopsWithTheExitCodeItWasGiven) {
   context.after(1ms, [&] { context.stop(3); });
   run();
