@@ -45,6 +45,19 @@ void put_all(std::vector<std::byte>& bytes, const std::vector<T>& values) {
   put_bytes(bytes, values.data(), values.size() * sizeof(T));
 }
 
+/// The first cell that is not zero, or the end: most are skipped eight at a time.
+template <class T>
+auto first_set(typename std::vector<T>::const_iterator at,
+               typename std::vector<T>::const_iterator end) {
+  constexpr std::ptrdiff_t kWord = sizeof(std::uint64_t);
+  for (; end - at >= kWord; at += kWord) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, &*at, sizeof word);
+    if (word != 0) break;
+  }
+  return std::find_if(at, end, [](T cell) { return cell != 0; });
+}
+
 /// Appends the cells of a grid, of which most are zero: in turn the number of zeros, and a number
 /// of other cells with these. Short gaps of zeros count as others.
 template <class T>
@@ -52,12 +65,11 @@ void put_cells(std::vector<std::byte>& bytes, const std::vector<T>& cells) {
   static_assert(std::is_integral_v<T> && sizeof(T) == 1);
   constexpr std::ptrdiff_t kShortestGap = 16;
   put(bytes, static_cast<std::uint64_t>(cells.size()));
-  const auto is_set = [](T cell) { return cell != 0; };
   for (auto at = cells.begin(); at != cells.end();) {
-    const auto first = std::find_if(at, cells.end(), is_set);
+    const auto first = first_set<T>(at, cells.end());
     auto end = first;
     for (auto next = first; next != cells.end() && next - end < kShortestGap; ++next) {
-      if (is_set(*next)) end = next + 1;
+      if (*next != 0) end = next + 1;
     }
     put(bytes, static_cast<std::uint64_t>(first - at));
     put(bytes, static_cast<std::uint64_t>(end - first));

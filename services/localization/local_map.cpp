@@ -35,6 +35,7 @@ LocalMap::LocalMap(const LocalMapConfig& config, const Vector2& centre_in_odom_m
                    work::SideWork* help, flow::SubmapId first)
     : LocalMap(config, evidence_window(config, centre_in_odom_m),
                surfel_window(config, centre_in_odom_m), help) {
+  inherited_ = std::make_shared<const Inherited>(held());
   submap_id_ = first;
 }
 
@@ -45,7 +46,6 @@ LocalMap::LocalMap(const LocalMapConfig& config, const grids::GridWindow& window
       end_cell_tolerance_(end_cell_tolerance(config)),
       evidence_(grids::EvidenceGrid(window, config.evidence, config.lasting), help),
       surfels_(surfel_lattice, kSurfelWeightLimit),
-      inherited_(std::make_shared<const Inherited>(held())),
       odom_from_submap_(pose_of_window(window)) {}
 
 LocalMap::Inherited LocalMap::held() const {

@@ -170,5 +170,22 @@ void make_a_checkpoint(benchmark::State& state) {
 }
 BENCHMARK(make_a_checkpoint)->Unit(benchmark::kMillisecond);
 
+/// What a standby does before its first scan.
+void restore_a_localizer(benchmark::State& state) {
+  const std::vector<std::byte> checkpoint = localizer_after_50_scans().checkpoint();
+  for (auto _ : state) {
+    state.PauseTiming();
+    Localizer localizer{LocalizerConfig{}};
+    state.ResumeTiming();
+    if (!localizer.restore(checkpoint)) state.SkipWithError("the checkpoint is not taken");
+  }
+}
+BENCHMARK(restore_a_localizer)->Unit(benchmark::kMillisecond);
+
+void make_a_localizer(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(Localizer{LocalizerConfig{}});
+}
+BENCHMARK(make_a_localizer)->Unit(benchmark::kMillisecond);
+
 }  // namespace
 }  // namespace slammot::localization
