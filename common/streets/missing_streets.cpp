@@ -50,7 +50,7 @@ class Explainer {
   MissingStreets explained() {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       if (pieces_[i].link) {
-        if (i > 0 && pieces_[i - 1].link && !are_joined(i - 1, i)) add(kMissing + 2.0 * kMidBlock);
+        if (i > 0 && pieces_[i - 1].link && !are_joined(i - 1, i)) add_street(2.0 * kMidBlock);
         continue;
       }
       Run run{i, i, i > 0, false};
@@ -66,6 +66,10 @@ class Explainer {
   void add(double cost) {
     for (double& sum : result_.costs) sum += cost;
   }
+  void add_street(double cost_of_its_line) {
+    add(kMissing + cost_of_its_line);
+    ++result_.count;
+  }
   bool are_joined(std::size_t a, std::size_t b) const {
     return network_.are_joined(*pieces_[a].link, *pieces_[b].link);
   }
@@ -79,7 +83,7 @@ class Explainer {
   void explain(const Run& run) {
     const double length_m = DrivenWay::kSpacing_m *
                             static_cast<double>(pieces_[run.last].last - pieces_[run.first].first);
-    add(kMissing + kMissingPer_m * std::max(0.0, length_m - kBlock_m));
+    add_street(kMissingPer_m * std::max(0.0, length_m - kBlock_m));
     std::optional<StreetEnd> begin;
     std::optional<StreetEnd> end;
     if (run.has_before) begin = end_at(pieces_[run.first], true, pieces_[run.first - 1]);

@@ -37,6 +37,7 @@ using CostsBySigma = std::array<double, kAcrossSigmas_m.size()>;
 struct MissingStreets {
   CostsBySigma costs{};         ///< Negative logarithms of the probability.
   std::vector<StreetEnd> ends;  ///< Those at nodes.
+  int count = 0;                ///< Of streets.
 };
 
 /// Information of a point that is off by 1 m, one sigma: errors of the way across a street are

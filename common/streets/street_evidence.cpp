@@ -22,6 +22,8 @@ constexpr int kSteps = 8;
 constexpr double kSettled_m = 0.05;
 constexpr double kSettled_rad = 0.0005;
 constexpr int kMostMissing = 4;
+constexpr double kSide_m = 7.0;        // of an opening from its street: three and a half sigmas
+constexpr double kFirstSide_m = 14.0;  // before the place is refined
 
 /// Negative logarithm of the mean of the evidences.
 double mean_cost(const CostsBySigma& costs) {
@@ -39,12 +41,12 @@ class NormalEquations {
   static constexpr int kNodes = 4;
 
   NormalEquations(const StreetPrior& prior, const StreetNetwork& network,
-                  const std::vector<Piece>& pieces) {
+                  const std::vector<Piece>& pieces, const std::vector<SideMatch>& sides) {
     for (const Piece& piece : pieces) {
       if (!piece.link) continue;
-      for (const std::size_t node : network.links()[*piece.link].nodes)
-        columns_.try_emplace(node, kNodes + 2 * static_cast<int>(columns_.size()));
+      for (const std::size_t node : network.links()[*piece.link].nodes) add_node(node);
     }
+    for (const SideMatch& side : sides) add_node(side.node);
     const Eigen::Index size = kNodes + 2 * static_cast<Eigen::Index>(columns_.size());
     prior_ = Eigen::VectorXd::Constant(size, prior.node_sigma_m);
     prior_.head<kNodes>() << prior.place_sigma_m, prior.place_sigma_m, prior.heading_sigma_rad,
@@ -65,6 +67,9 @@ class NormalEquations {
 
   void add_point(const Observation& seen) { add(seen, kPointInformation, points_); }
   void add_end(const Observation& seen) { add(seen, 1.0 / (kEndSigma_m * kEndSigma_m), ends_); }
+  void add_side(const Observation& seen) {
+    add(seen, 1.0 / (kOpeningSigma_m * kOpeningSigma_m), ends_);
+  }
 
   /// Solves them, for each accuracy of the way across streets. `beside` are the costs of what is
   /// beside the streets.
@@ -111,6 +116,10 @@ class NormalEquations {
     Eigen::VectorXd gradient;
     double squares = 0.0;
   };
+
+  void add_node(std::size_t node) {
+    columns_.try_emplace(node, kNodes + 2 * static_cast<int>(columns_.size()));
+  }
 
   void add(const Observation& seen, double weight, Sums& sums) const {
     const int first = columns_.at(seen.nodes[0]);
@@ -204,7 +213,8 @@ Explanation StreetEvidence::settled(Pose2 pose, const std::vector<bool>& is_besi
   const Vector2 middle_in_map = way_.points[way_.points.size() / 2].translation_m();
   for (int step = 0; step < kSteps; ++step) {
     explanation.pieces = pieces_at(pose, is_beside);
-    NormalEquations equations(prior_, network_, explanation.pieces);
+    const SideExplanation sides = sides_.explain(pose, step == 0 ? kFirstSide_m : kSide_m);
+    NormalEquations equations(prior_, network_, explanation.pieces, sides.matches);
     const Vector2 middle_m = pose * middle_in_map;
     for (const Piece& piece : explanation.pieces) {
       if (piece.link) add_piece(equations, {network_, field_, way_}, piece, pose, middle_m);
@@ -212,9 +222,17 @@ Explanation StreetEvidence::settled(Pose2 pose, const std::vector<bool>& is_besi
     const MissingStreets missing = missing_streets(network_, way_, explanation.pieces, pose);
     for (const StreetEnd& end : missing.ends)
       add_end(equations, {network_, field_, way_}, end, pose, middle_m);
+    for (const SideMatch& side : sides.matches) {
+      const Vector2 place_m = pose * side.point_in_map;
+      const Vector2 left = geometry::rotation(pose.heading_rad) * side.left_in_map;
+      const Vector2 node_m = network_.nodes()[side.node].place_m;
+      equations.add_side(
+          {place_m - middle_m, left, left.dot(place_m - node_m), {side.node, side.node}, 0.0});
+    }
     equations.solve(missing.costs, way_.points.size());
-    explanation.cost = equations.cost();
+    explanation.cost = equations.cost() + sides.cost;
     explanation.squares = equations.squares();
+    explanation.missing = missing.count;
     pose = equations.moved(pose, middle_m);
     if (equations.is_settled()) break;
   }
@@ -258,7 +276,7 @@ Explanation StreetEvidence::beside_all_streets() const {
   for (std::size_t k = 0; k < costs.size(); ++k)
     costs[k] +=
         kPointInformation * static_cast<double>(way_.points.size()) * std::log(kAcrossSigmas_m[k]);
-  explanation.cost = mean_cost(costs);
+  explanation.cost = mean_cost(costs) + sides_.cost_beside();
   return explanation;
 }
 

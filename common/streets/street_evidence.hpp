@@ -1,11 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/geometry/pose2.hpp"
 #include "common/streets/driven_way.hpp"
 #include "common/streets/missing_streets.hpp"
+#include "common/streets/side_streets.hpp"
 #include "common/streets/street_field.hpp"
 #include "common/streets/street_network.hpp"
 
@@ -25,6 +27,7 @@ struct Explanation {
   double cost = 0.0;     ///< Negative logarithm of the evidence, beside that of known lines.
   double squares = 0.0;  ///< The part of it that is due to errors.
   double share = 0.0;    ///< Of the way on streets.
+  int missing = 0;       ///< Streets that the graph lacks.
   std::vector<Piece> pieces;
 };
 
@@ -34,9 +37,14 @@ struct Explanation {
 /// missing streets.
 class StreetEvidence {
  public:
+  /// fans: what was seen beside the way; none if that is unknown.
   StreetEvidence(const StreetNetwork& network, const StreetField& field, const DrivenWay& way,
-                 const StreetPrior& prior)
-      : network_(network), field_(field), way_(way), prior_(prior) {}
+                 const StreetPrior& prior, std::vector<ViewFan> fans = {})
+      : network_(network),
+        field_(field),
+        way_(way),
+        prior_(prior),
+        sides_(network, std::move(fans)) {}
 
   /// Explanation near a place by the streets around it.
   Explanation explain(const geometry::Pose2& streets_from_map) const;
@@ -57,6 +65,7 @@ class StreetEvidence {
   const StreetField& field_;
   const DrivenWay& way_;
   StreetPrior prior_;
+  SideStreets sides_;
 };
 
 }  // namespace slammot::streets

@@ -20,6 +20,8 @@ constexpr std::size_t kExplained = 200;  // places
 constexpr std::size_t kMostFits = 20;
 constexpr double kImprobable = 10.0;  // costs more than the best place
 constexpr double kLeastShare = 0.25;  // of the way on streets
+constexpr double kPoorGraph = 1.6;    // the logarithm of one half in place of one tenth
+constexpr double kNotPassed_m = 15.0;
 
 Area area_of(const StreetGraph& graph, const DrivenWay& way,
              const std::optional<StartArea>& start) {
@@ -88,7 +90,7 @@ std::vector<StreetFit> fits_of(const std::vector<Explanation>& explanations, con
       return are_one_place(known.streets_from_map, place, way);
     });
     if (is_new && fits.size() < kMostFits && agrees_with_start(place, way, start))
-      fits.push_back({place, explanation.cost, explanation.share, 0.0});
+      fits.push_back({place, explanation.cost, explanation.share, 0.0, explanation.missing});
   }
   return fits;
 }
@@ -98,6 +100,16 @@ void set_probabilities(std::vector<StreetFit>& fits, double cost_beside) {
   double sum = std::exp(fits.front().cost - cost_beside);
   for (const StreetFit& fit : fits) sum += std::exp(fits.front().cost - fit.cost);
   for (StreetFit& fit : fits) fit.probability = std::exp(fits.front().cost - fit.cost) / sum;
+}
+
+/// Probability of the best place if half of all streets were missing: how many are is not known,
+/// and a place with all its streets must stand against others without some of theirs.
+double probability_in_a_poor_graph(const std::vector<StreetFit>& fits, double cost_beside) {
+  const StreetFit& best = fits.front();
+  double sum = std::exp(best.cost - cost_beside);
+  for (const StreetFit& fit : fits)
+    sum += std::exp(best.cost - fit.cost + kPoorGraph * (fit.missing - best.missing));
+  return 1.0 / sum;
 }
 
 /// Number of poses until this much of the way.
@@ -110,44 +122,59 @@ std::size_t poses_within(std::span<const Pose2> way, double most_m) {
   return way.size();
 }
 
+/// The part of a way from which its sides are seen: without its last metres.
+DrivenWay passed(std::span<const Pose2> way) {
+  double travelled_m = 0.0;
+  std::size_t count = way.size();
+  while (count > 1 && travelled_m < kNotPassed_m) {
+    travelled_m += (way[count - 1].translation_m() - way[count - 2].translation_m()).norm();
+    --count;
+  }
+  return driven_way(way.first(count));
+}
+
 StreetLocation locate(const Surroundings& streets, const DrivenWay& way,
-                      const std::optional<StartArea>& start,
-                      const StreetLocalizationConfig& config) {
+                      const std::optional<StartArea>& start, const StreetLocalizationConfig& config,
+                      std::vector<ViewFan> fans) {
   StreetLocation location;
   location.way_m = way.length_m();
   if (location.way_m < config.least_way_m) return location;
   location.verdict = StreetVerdict::kNotOnStreets;
   const StreetEvidence evidence(streets.network, streets.field, way,
-                                prior_of(streets.area, start, config));
+                                prior_of(streets.area, start, config), std::move(fans));
   const std::vector<Pose2> places = proposed_places(streets.field, way, start, kExplained);
   location.fits = fits_of(explained(evidence, places), way, start);
   const double cost_beside = evidence.beside_all_streets().cost;
   if (location.fits.empty() || location.fits.front().cost > cost_beside) return location;
   set_probabilities(location.fits, cost_beside);
-  location.verdict = location.fits.front().probability >= config.clear_probability
-                         ? StreetVerdict::kLocated
-                         : StreetVerdict::kAmbiguous;
+  location.verdict =
+      std::min(location.fits.front().probability,
+               probability_in_a_poor_graph(location.fits, cost_beside)) >= config.clear_probability
+          ? StreetVerdict::kLocated
+          : StreetVerdict::kAmbiguous;
   return location;
 }
 
 }  // namespace
 
 StreetLocation locate(const StreetGraph& graph, std::span<const Pose2> way,
-                      const std::optional<StartArea>& start,
-                      const StreetLocalizationConfig& config) {
+                      const std::optional<StartArea>& start, const StreetLocalizationConfig& config,
+                      const SeenSpace& seen) {
   const DrivenWay driven = driven_way(way);
-  return locate(Surroundings(graph, driven, start), driven, start, config);
+  return locate(Surroundings(graph, driven, start), driven, start, config,
+                side_views(seen, passed(way)));
 }
 
 StreetSearch search_along(const StreetGraph& graph, std::span<const Pose2> way,
                           const std::optional<StartArea>& start, double most_m,
-                          const StreetLocalizationConfig& config) {
+                          const StreetLocalizationConfig& config, const SeenSpace& seen) {
   constexpr double kStep_m = 50.0;
   StreetSearch search;
   const Surroundings streets(graph, driven_way(way.first(poses_within(way, most_m))), start);
   for (double way_m = config.least_way_m; way_m <= most_m; way_m += kStep_m) {
     const auto driven = way.first(poses_within(way, way_m));
-    search.location = locate(streets, driven_way(driven), start, config);
+    search.location =
+        locate(streets, driven_way(driven), start, config, side_views(seen, passed(driven)));
     if (search.location.verdict == StreetVerdict::kLocated) {
       search.located_after_m = search.location.way_m;
       return search;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/geometry/pose2.hpp"
+#include "common/streets/seen_space.hpp"
 #include "common/streets/street_graph.hpp"
 #include "common/streets/street_proposals.hpp"
 
@@ -30,6 +31,7 @@ struct StreetFit {
   double cost = 0.0;         ///< Negative logarithm of the evidence.
   double share = 0.0;        ///< Of the way on streets.
   double probability = 0.0;  ///< Among all places that were found.
+  int missing = 0;           ///< Streets of the way that the graph lacks there.
 };
 
 struct StreetLocation {
@@ -47,7 +49,7 @@ struct StreetLocation {
 /// known. Deterministic.
 StreetLocation locate(const StreetGraph& graph, std::span<const geometry::Pose2> way,
                       const std::optional<StartArea>& start,
-                      const StreetLocalizationConfig& config = {});
+                      const StreetLocalizationConfig& config = {}, const SeenSpace& seen = {});
 
 /// What was found on the way, as it was driven.
 struct StreetSearch {
@@ -59,6 +61,6 @@ struct StreetSearch {
 /// one place is clear.
 StreetSearch search_along(const StreetGraph& graph, std::span<const geometry::Pose2> way,
                           const std::optional<StartArea>& start, double most_m,
-                          const StreetLocalizationConfig& config = {});
+                          const StreetLocalizationConfig& config = {}, const SeenSpace& seen = {});
 
 }  // namespace slammot::streets

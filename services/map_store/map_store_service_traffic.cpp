@@ -11,8 +11,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::chrono::nanoseconds kLeastPause = 2s;
-constexpr int kPauseShare = 20;  // times as long as it takes to find ways
+constexpr auto kSilence = 1s;  // Only a clock tells that no data comes: ten scans of a slow
+                               // scanner.
 constexpr std::size_t kMostUnwritten = 64;
 
 }  // namespace
@@ -45,6 +45,7 @@ void TrafficOfSubmaps::take(const slammot_TrackedObjects& sample) {
     begin_drive(*objects);
   drive_->stamp_ns = objects->stamp_ns;
   drive_->map_from_odom = objects->map_from_odom;
+  last_data_ = std::chrono::steady_clock::now();
   collector_.add(*objects);
 }
 
@@ -102,7 +103,12 @@ void TrafficOfSubmaps::advance() {
     if (finding_.wait_for(0s) == std::future_status::ready) publish(finding_.get());
     return;
   }
-  if (std::chrono::steady_clock::now() >= due_ && has_changed()) find();
+  if (may_find() && has_changed()) find();
+}
+
+bool TrafficOfSubmaps::may_find() const {
+  const bool is_silent = std::chrono::steady_clock::now() - last_data_ > kSilence;
+  return is_silent || !drive_ || pace_.is_due(drive_->stamp_ns, traffic_.size());
 }
 
 bool TrafficOfSubmaps::has_changed() {
@@ -122,6 +128,7 @@ std::vector<traffic::PlacedTraffic> TrafficOfSubmaps::all_placed() const {
 }
 
 void TrafficOfSubmaps::find() {
+  if (drive_) pace_.found(drive_->stamp_ns);
   finding_ = std::async(
       std::launch::async, [parts = all_placed(), map_id = map_id_.value_or(flow::MapId{})] {
         const auto start = std::chrono::steady_clock::now();
@@ -133,7 +140,6 @@ void TrafficOfSubmaps::find() {
 
 void TrafficOfSubmaps::publish(Found found) {
   context_.status().latency("find_ways").add(found.took);
-  due_ = std::chrono::steady_clock::now() + std::max(kLeastPause, kPauseShare * found.took);
   if (found.map_id != map_id_) return;
   const std::size_t left_out = wire::TrafficWaysEncoder().encode(
       context_.vehicle_id(),

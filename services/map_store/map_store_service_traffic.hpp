@@ -11,6 +11,7 @@
 #include "common/app/service_context.hpp"
 #include "common/traffic/map_traffic.hpp"
 #include "common/traffic/traffic_collector.hpp"
+#include "common/traffic/ways_pace.hpp"
 #include "common/wire/graph.hpp"
 #include "common/wire/traffic_ways.hpp"
 #include "services/map_store/store.hpp"
@@ -18,8 +19,8 @@
 namespace slammot::map_store {
 
 /// Keeps what moved beside the submaps during which it moved, and publishes the lanes and walkways
-/// of the map. Ways are found in a thread of their own, at most every two seconds, for at most 5 %
-/// of the time.
+/// of the map. Ways are found in a thread of their own, as often as the data's stamps allow
+/// (ways_pace.hpp), and once more when no data comes.
 class TrafficOfSubmaps {
  public:
   TrafficOfSubmaps(app::ServiceContext& context, Store& store);
@@ -56,6 +57,7 @@ class TrafficOfSubmaps {
   using SubmapOfMap = std::pair<flow::MapId, flow::SubmapId>;
 
   void begin_drive(const flow::TrackedObjects& objects);
+  bool may_find() const;
   bool has_changed();
   std::vector<traffic::PlacedTraffic> all_placed() const;
   void find();
@@ -73,7 +75,8 @@ class TrafficOfSubmaps {
   std::uint32_t told_parts_ = 0;  ///< Of the collector, in the last ways.
   std::uint32_t sequence_ = 0;
   std::map<SubmapOfMap, std::vector<traffic::FreeStream>> unwritten_;
-  std::chrono::steady_clock::time_point due_{};
+  traffic::WaysPace pace_;
+  std::chrono::steady_clock::time_point last_data_{};
   std::future<Found> finding_;
 };
 

@@ -13,6 +13,10 @@
 #include "common/files/atomic_file.hpp"
 #include "common/files/failure.hpp"
 #include "common/files/run_outputs.hpp"
+#include "common/files/ways_file.hpp"
+#include "common/traffic/map_traffic.hpp"
+#include "common/traffic/submap_traffic.hpp"
+#include "common/traffic/ways.hpp"
 #include "services/loop_closing/map_merge.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
@@ -25,6 +29,12 @@ using Clock = std::chrono::steady_clock;
 using loop_closing::Merge;
 using loop_closing::MergeOutcome;
 using Submaps = std::vector<flow::Submap>;
+
+/// A stored map with what moved in it.
+struct MapWithTraffic {
+  Submaps submaps;
+  traffic::SubmapTraffic traffic;
+};
 
 struct MergeOptions {
   std::filesystem::path first;
@@ -41,11 +51,14 @@ std::filesystem::path settings_of(const MergeOptions& options) {
   return std::filesystem::is_regular_file(settings) ? settings : std::filesystem::path();
 }
 
-files::Result<Submaps> read_map(const std::filesystem::path& path, const Profile& profile) {
+files::Result<MapWithTraffic> read_map(const std::filesystem::path& path, const Profile& profile) {
   auto submaps = read_stored_map(path, profile.localization.map.cell_size_m);
-  if (submaps && submaps->empty()) return files::Error{path.string() + ": contains no submap"};
-  if (submaps) std::printf("map:      %zu submaps of %s\n", submaps->size(), path.c_str());
-  return submaps;
+  if (!submaps) return submaps.error();
+  if (submaps->empty()) return files::Error{path.string() + ": contains no submap"};
+  auto traffic = read_stored_traffic(path);
+  if (!traffic) return traffic.error();
+  std::printf("map:      %zu submaps of %s\n", submaps->size(), path.c_str());
+  return MapWithTraffic{std::move(*submaps), std::move(*traffic)};
 }
 
 std::string describe(const Merge& merge) {
@@ -63,6 +76,23 @@ std::string describe(const Merge& merge) {
     case MergeOutcome::kContradicted: return std::string("the walls disagree: ") + text;
   }
   return {};
+}
+
+/// What moved in both maps, by the numbers of the joint one.
+traffic::SubmapTraffic joint_traffic(const MapWithTraffic& first, const MapWithTraffic& second) {
+  traffic::SubmapTraffic joint = traffic::renumbered(first.traffic, first.submaps, {0});
+  joint.merge(traffic::renumbered(second.traffic, second.submaps,
+                                  {static_cast<std::uint32_t>(first.submaps.size())}));
+  return joint;
+}
+
+/// Lanes and walkways of both maps, where the correction places their submaps.
+std::string lanes_of(const traffic::SubmapTraffic& traffic,
+                     const flow::GraphCorrection& correction) {
+  traffic::MapTraffic in_map;
+  for (const auto& [submap_id, streams] : traffic) in_map.add(submap_id, streams);
+  in_map.place(correction);
+  return files::to_geojson(traffic::find_ways(traffic::traffic_in_map(in_map.placed())));
 }
 
 files::RunRecord record_of(const Merge& merge) {
@@ -89,13 +119,18 @@ files::RunReport report_of(const Merge& merge, const MergeOptions& options, doub
   return report;
 }
 
-std::optional<files::Error> write(const Merge& merge, const MergeOptions& options,
-                                  const Profile& profile, double wall_s) {
+std::optional<files::Error> write(const Merge& merge, const traffic::SubmapTraffic& traffic,
+                                  const MergeOptions& options, const Profile& profile,
+                                  double wall_s) {
   if (auto fault = files::prepare_output_folder(options.output)) return fault;
   if (auto fault =
           write_stored_map(options.output, merge.submaps, app::ServiceOptions().vehicle_id))
     return fault;
+  if (auto fault = write_stored_traffic(options.output, traffic)) return fault;
   if (auto fault = write_settings(profile, options.output)) return fault;
+  if (auto fault = files::write_file_atomically(options.output / "lanes.geojson",
+                                                lanes_of(traffic, merge.correction)))
+    return fault;
   return files::write_map_outputs(options.output, record_of(merge),
                                   report_of(merge, options, wall_s));
 }
@@ -110,14 +145,16 @@ int merge_maps(const MergeOptions& options) {
   const auto second = read_map(options.second, profile);
   if (!second) return files::fail(second.error());
   std::fflush(stdout);
-  const Merge merge = loop_closing::merge_maps(profile.loop_closing, *first, *second);
+  const Merge merge =
+      loop_closing::merge_maps(profile.loop_closing, first->submaps, second->submaps);
   if (merge.outcome != MergeOutcome::kJoined) {
     std::fprintf(stderr, "slammot: not merged: %s; nothing was written\n", describe(merge).c_str());
     return kExitNotJoined;
   }
   const double wall_s = std::chrono::duration<double>(Clock::now() - start).count();
-  if (const auto fault = write(merge, options, profile, wall_s)) return files::fail(*fault);
-  const geometry::Pose2& origin = merge.correction.submaps[first->size()].map_from_submap;
+  if (const auto fault = write(merge, joint_traffic(*first, *second), options, profile, wall_s))
+    return files::fail(*fault);
+  const geometry::Pose2& origin = merge.correction.submaps[first->submaps.size()].map_from_submap;
   std::printf("map:      %s\n", describe(merge).c_str());
   std::printf("map:      the second map begins at x %.2f m, y %.2f m, heading %.4f rad\n",
               origin.x_m, origin.y_m, origin.heading_rad);

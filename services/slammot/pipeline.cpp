@@ -41,6 +41,7 @@ void Pipeline::take(const sensing::LaserScan& scan) {
   record_.add(segmented);
   record_.add(tracked.labels);
   record_.add(tracked.objects);
+  traffic_.take(tracked.objects);
   recycled_localized_ = std::move(localized);
   recycled_segmented_ = std::move(segmented);
   close_loops();
@@ -86,6 +87,7 @@ void Pipeline::close_loops() {
         times_.measure("loop_closing", [&] { return loop_closer_.add(*submap); });
     localizer_->correct(correction);
     record_.add(correction);
+    traffic_.finish(*submap);
     record_.add(std::move(*submap));
   }
 }

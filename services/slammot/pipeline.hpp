@@ -12,6 +12,7 @@
 #include "common/sensing/scan.hpp"
 #include "common/stages/localization_stage.hpp"
 #include "common/stages/tracking_stage.hpp"
+#include "common/traffic/submap_traffic.hpp"
 #include "services/detection/detector.hpp"
 #include "services/loop_closing/loop_closer.hpp"
 #include "services/slammot/profile.hpp"
@@ -45,6 +46,9 @@ class Pipeline {
 
   const files::RunRecord& record() const { return record_; }
   const StageTimes& times() const { return times_; }
+
+  /// What moved during this drive; that of a submap is complete when the submap is finished.
+  const traffic::SubmapTraffic& traffic() const { return traffic_.by_submap(); }
   std::map<std::string, std::map<std::string, std::uint64_t>> counters() const;
 
   /// True if the last scan did not match the map.
@@ -82,6 +86,7 @@ class Pipeline {
   flow::LocalizedScan recycled_localized_;  ///< Its memory is reused.
   flow::SegmentedScan recycled_segmented_;  ///< Its memory is reused.
   files::RunRecord record_;
+  traffic::TrafficOfDrive traffic_;
   StageTimes times_;
   int iterations_;
   std::uint64_t scans_iterated_ = 0;  ///< Scans matched more than once.

@@ -178,6 +178,17 @@ std::string describe_location(const Pipeline& pipeline, const RunOptions& option
   return lost + (pipeline.is_connected() ? "map:      " : "warning:  ") + place;
 }
 
+/// Writes the map with what moved in it, in this drive and in earlier ones, if that is wanted.
+std::optional<files::Error> store_map(const JobOptions& options, const Pipeline& pipeline) {
+  if (!options.stores_map) return std::nullopt;
+  files::Result<traffic::SubmapTraffic> earlier = traffic::SubmapTraffic();
+  if (!options.map.empty()) earlier = read_stored_traffic(options.map);  // may be replaced below
+  if (!earlier) return earlier.error();
+  if (auto fault = write_stored_map(options.output, pipeline.record().submaps())) return fault;
+  if (auto fault = write_stored_traffic(options.output, *earlier)) return fault;
+  return write_stored_traffic(options.output, pipeline.traffic());
+}
+
 int run(const RunOptions& run_options) {
   const JobOptions& options = run_options.job;
   const auto start = Clock::now();
@@ -201,22 +212,18 @@ int run(const RunOptions& run_options) {
   report.odometry = pipeline.verdict_on_odometry();
   report.losses = driven.losses;
   report.is_interrupted = driven.is_interrupted;
-  if (*streets)
+  if (*streets) {
+    const files::MapImage map = map_of(pipeline.record());
     report.streets = find_on_streets(**streets, pipeline.record().corrected_trajectory(),
-                                     pipeline.record().georeference());
+                                     pipeline.record().georeference(), &map);
+  }
   const double wall_s = seconds_since(start);
   report.measured = {pipeline.times().summary(), wall_s, driven.duration_s / wall_s,
                      peak_memory_mb()};
   if (const auto fault = files::write_outputs(options.output, pipeline.record(), report))
     return files::fail(*fault);
   if (const auto fault = write_settings(job->profile, options.output)) return files::fail(*fault);
-  if (options.stores_map) {
-    if (const auto fault = write_stored_map(options.output, pipeline.record().submaps()))
-      return files::fail(*fault);
-    if (!options.map.empty()) {
-      if (const auto fault = copy_traffic(options.map, options.output)) return files::fail(*fault);
-    }
-  }
+  if (const auto fault = store_map(options, pipeline)) return files::fail(*fault);
   write_report(options, pipeline.record());
   print(options, describe_location(pipeline, run_options));
   print(options, describe_outcome(pipeline.record(), report, options.output));

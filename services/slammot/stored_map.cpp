@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <variant>
 
 #include "common/app/service_options.hpp"
@@ -115,24 +116,39 @@ std::optional<Error> write_stored_map(const std::filesystem::path& folder,
   return std::nullopt;
 }
 
-std::optional<Error> copy_traffic(const std::filesystem::path& path,
-                                  const std::filesystem::path& folder) {
-  auto from = Store::open(file_of(path), {});
-  if (const auto* why = std::get_if<std::string>(&from)) return Error{*why};
-  auto to = Store::open(folder / kFileName, {});
-  if (const auto* why = std::get_if<std::string>(&to)) return Error{*why};
-  Store& source = std::get<Store>(from);
-  Store& target = std::get<Store>(to);
-  const auto old_map = latest_map_of(source);
-  const auto new_map = latest_map_of(target);
-  if (!old_map || !new_map) return std::nullopt;
-  for (Store::StoredTraffic& stored : source.traffic(old_map->vehicle_id, old_map->map_id)) {
-    if (!stored.streams) continue;
-    if (!target.add_traffic(new_map->vehicle_id, new_map->map_id, stored.submap_id,
-                            std::move(*stored.streams)))
-      return Error{(folder / kFileName).string() + ": " + target.last_fault()};
+Result<traffic::SubmapTraffic> read_stored_traffic(const std::filesystem::path& path) {
+  auto opened = Store::open(file_of(path), {});
+  if (const auto* why = std::get_if<std::string>(&opened)) return Error{*why};
+  Store& store = std::get<Store>(opened);
+  traffic::SubmapTraffic traffic;
+  const auto map = latest_map_of(store);
+  if (!map) return traffic;
+  for (Store::StoredTraffic& stored : store.traffic(map->vehicle_id, map->map_id)) {
+    if (stored.streams) traffic.emplace(stored.submap_id, std::move(*stored.streams));
+  }
+  if (!store.last_fault().empty()) return Error{file_of(path).string() + ": " + store.last_fault()};
+  return traffic;
+}
+
+std::optional<Error> write_stored_traffic(const std::filesystem::path& folder,
+                                          const traffic::SubmapTraffic& traffic) {
+  auto opened = Store::open(folder / kFileName, {});
+  if (const auto* why = std::get_if<std::string>(&opened)) return Error{*why};
+  Store& store = std::get<Store>(opened);
+  const auto map = latest_map_of(store);
+  if (!map) return std::nullopt;
+  for (const auto& [submap_id, streams] : traffic) {
+    if (!store.add_traffic(map->vehicle_id, map->map_id, submap_id, streams))
+      return Error{(folder / kFileName).string() + ": " + store.last_fault()};
   }
   return std::nullopt;
+}
+
+std::optional<Error> copy_traffic(const std::filesystem::path& path,
+                                  const std::filesystem::path& folder) {
+  const auto traffic = read_stored_traffic(path);
+  if (!traffic) return traffic.error();
+  return write_stored_traffic(folder, *traffic);
 }
 
 }  // namespace slammot

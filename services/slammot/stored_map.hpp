@@ -8,6 +8,7 @@
 
 #include "common/files/result.hpp"
 #include "common/flow/submap.hpp"
+#include "common/traffic/submap_traffic.hpp"
 
 namespace slammot {
 
@@ -26,8 +27,16 @@ std::optional<files::Error> write_stored_map(const std::filesystem::path& folder
 std::optional<files::Error> write_stored_map(const std::filesystem::path& folder,
                                              const std::map<flow::SubmapId, flow::Submap>& submaps);
 
-/// Copies what moved in the latest map of a database (as for read_stored_map) to the one in the
-/// folder, which has its submaps. Damaged records are left out.
+/// What moved in the latest map of a database (as for read_stored_map). Damaged records are left
+/// out.
+files::Result<traffic::SubmapTraffic> read_stored_traffic(const std::filesystem::path& path);
+
+/// Adds what moved to the latest map of the database in the folder, which has the submaps.
+std::optional<files::Error> write_stored_traffic(const std::filesystem::path& folder,
+                                                 const traffic::SubmapTraffic& traffic);
+
+/// Copies what moved in the latest map of a database to the one in the folder, which has its
+/// submaps.
 std::optional<files::Error> copy_traffic(const std::filesystem::path& path,
                                          const std::filesystem::path& folder);
 

@@ -46,6 +46,20 @@ std::optional<streets::StartArea> start_of(const StreetJob& job, const geometry:
   return start;
 }
 
+streets::SeenSpace seen_in(const files::MapImage& map) {
+  streets::SeenSpace seen{{map.min_x_m, map.min_y_m}, map.resolution_m, map.width, map.height, {}};
+  seen.cells.reserve(map.pixels.size());
+  for (std::size_t row = 0; row < map.height; ++row) {
+    for (std::size_t column = 0; column < map.width; ++column) {
+      const std::uint8_t pixel = map.pixels[(map.height - 1 - row) * map.width + column];
+      seen.cells.push_back(pixel == files::kOccupiedPixel ? streets::Seen::kOccupied
+                           : pixel == files::kFreePixel   ? streets::Seen::kFree
+                                                          : streets::Seen::kUnknown);
+    }
+  }
+  return seen;
+}
+
 }  // namespace
 
 void add_street_options(CLI::App& command, StreetOptions& options) {
@@ -87,15 +101,24 @@ files::Result<std::optional<StreetJob>> prepare_streets(const StreetOptions& opt
 
 files::StreetFindings find_on_streets(const StreetJob& job,
                                       const std::vector<files::StampedPose>& trajectory,
-                                      const std::optional<flow::Georeference>& georeference) {
+                                      const std::optional<flow::Georeference>& georeference,
+                                      const files::MapImage* map) {
   if (trajectory.empty()) return {};
   std::vector<geometry::Pose2> way;
   way.reserve(trajectory.size());
   for (const files::StampedPose& pose : trajectory) way.push_back(pose.map_from_base);
   return files::findings_of(
       streets::search_along(job.graph, way, start_of(job, way.front(), georeference),
-                            kMostStreetWay_m),
+                            kMostStreetWay_m, {},
+                            map != nullptr ? seen_in(*map) : streets::SeenSpace()),
       job.graph.origin);
+}
+
+files::MapImage map_of(const files::RunRecord& record) {
+  std::vector<files::PlacedSubmap> placed;
+  for (const auto& [id, submap] : record.submaps())
+    placed.push_back({&submap, record.map_from_submap(submap)});
+  return files::draw_map(placed).stationary;
 }
 
 }  // namespace slammot

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/files/map_image.hpp"
 #include "common/files/result.hpp"
 #include "common/files/run_record.hpp"
 #include "common/files/street_findings.hpp"
@@ -38,9 +39,14 @@ void add_street_options(CLI::App& command, StreetOptions& options);
 /// Reads the street graph; none without a file.
 files::Result<std::optional<StreetJob>> prepare_streets(const StreetOptions& options);
 
-/// Searches for the trajectory. Without a known start, it is taken from the georeference.
+/// Searches for the trajectory. Without a known start, it is taken from the georeference. `map`:
+/// the SO-map, in which side streets are seen; null: none is used.
 files::StreetFindings find_on_streets(const StreetJob& job,
                                       const std::vector<files::StampedPose>& trajectory,
-                                      const std::optional<flow::Georeference>& georeference);
+                                      const std::optional<flow::Georeference>& georeference,
+                                      const files::MapImage* map);
+
+/// The SO-map of a drive.
+files::MapImage map_of(const files::RunRecord& record);
 
 }  // namespace slammot

@@ -16,6 +16,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import merging
 
 FARTHEST_OFF_M = 1.0
+LEAST_SHARE_OF_LANES = 0.9  # lines that meet in the joint map shift by decimetres
 
 
 class MapMerge(unittest.TestCase):
@@ -52,6 +53,17 @@ class MapMerge(unittest.TestCase):
         self.assertIn("the drive is located in the map", run.stdout)
         closures = json.loads((output / "report.json").read_text())["counters"]["loop_closing"]
         self.assertEqual(closures["found_elsewhere"], 1, "the joint map is one, and the drive was found in it")
+
+    def test_has_the_lanes_of_both_drives(self):
+        joint = self.work / "with-lanes"
+        merging.merge(self.slammot, self.first, self.second, joint)
+        lanes = merging.points_of_ways(joint)
+        self.assertGreater(merging.share_found(merging.points_of_ways(self.first), lanes), LEAST_SHARE_OF_LANES)
+        nodes, join = merging.nodes_of(joint / "graph.g2o"), len(merging.first_stamps_of(self.first))
+        beginning = merging.nodes_of(self.second / "graph.g2o")[0]
+        of_second = [merging.placed(nodes[join], merging.seen_from(beginning, (*point, 0.0))) for point in merging.points_of_ways(self.second)]
+        self.assertGreater(merging.share_found(of_second, lanes), LEAST_SHARE_OF_LANES)
+        self.assertLess(merging.share_found(of_second, merging.points_of_ways(self.first)), 0.8, "the first drive has seen them, too")
 
     def test_refuses_drives_through_two_towns(self):
         other = merging.drive(self.slammot, "second", 2, self.work)

@@ -84,6 +84,22 @@ def true_nodes(folder):
     return [truth[min(stamps, key=lambda one, wanted=wanted: abs(one - wanted))] for wanted in first_stamps_of(folder)]
 
 
+def points_of_ways(folder, kind="lane"):
+    """Points of the lines of a kind in lanes.geojson, in map."""
+    features = json.loads((folder / "lanes.geojson").read_text(encoding="utf-8"))["features"]
+    return [tuple(point) for feature in features if feature["properties"]["kind"] == kind for point in feature["geometry"]["coordinates"]]
+
+
+def placed(pose, point):
+    cosine, sine = math.cos(pose[2]), math.sin(pose[2])
+    return pose[0] + cosine * point[0] - sine * point[1], pose[1] + sine * point[0] + cosine * point[1]
+
+
+def share_found(points, among, within_m=1.0):
+    """Share of points that have one of the others near."""
+    return sum(any(math.dist(point, other) <= within_m for other in among) for point in points) / len(points)
+
+
 def merge(slammot, first, second, output):
     """Merges the maps in two folders and compares the joint map with the truth, which lies beside each of them."""
     command = [slammot, "map", "merge", first, second, "--output", output]

@@ -245,7 +245,7 @@ def find(slammot, drive, output, start, end, graph, near, within_m, direction=No
     piece = drive.folder / "piece.tum"
     piece.write_text("\n".join(trajectory[start:end]) + "\n", encoding="utf-8")
     latitude, longitude = degrees_of(*near)
-    text = subprocess.run([slammot, "streets", "--trajectory", piece, "--streets", graph, f"--near={latitude:.9f},{longitude:.9f}",
+    text = subprocess.run([slammot, "streets", "--trajectory", piece, "--map", output / "map.yaml", "--streets", graph, f"--near={latitude:.9f},{longitude:.9f}",
                            "--near-within", str(within_m)] + ([] if direction is None else [f"--x-from-east={direction:.4f}"]), check=True, stdout=subprocess.PIPE, text=True).stdout
     found = json.loads(text)
     if found["verdict"] != "located":

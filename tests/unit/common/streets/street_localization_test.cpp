@@ -136,6 +136,35 @@ TEST(StreetLocalization, DoesNotTakeAnotherBlockForTheOneWhoseStreetIsMissing) {
   }
 }
 
+/// A raster of the ground: free within 8 m of the streets, walls elsewhere.
+SeenSpace seen_of(const StreetGraph& graph) {
+  SeenSpace seen{{-60.0, -60.0}, 0.5, 1140, 1080, {}};
+  const std::vector<Segment> segments = graph.segments();
+  seen.cells.assign(seen.columns * seen.rows, Seen::kOccupied);
+  for (std::size_t row = 0; row < seen.rows; ++row) {
+    for (std::size_t column = 0; column < seen.columns; ++column) {
+      const Vector2 at_m =
+          seen.min_m + seen.cell_m * Vector2(static_cast<double>(column), static_cast<double>(row));
+      for (const Segment& segment : segments) {
+        if ((segment.nearest_to(at_m) - at_m).norm() < 8.0)
+          seen.cells[row * seen.columns + column] = Seen::kFree;
+      }
+    }
+  }
+  return seen;
+}
+
+/// A straight way fits many streets; where others leave it is different on each.
+TEST(StreetLocalization, TellsStraightWaysApartByTheirSideStreets) {
+  const StreetGraph graph = irregular_town();
+  const auto way = way_along({{90.0, 20.0}, {90.0, 400.0}});
+  const StartArea start{{100.0, 60.0}, 100.0, 0.0};
+  EXPECT_EQ(locate(graph, way, start).verdict, StreetVerdict::kAmbiguous);
+  const StreetLocation location = locate(graph, way, start, {}, seen_of(graph));
+  ASSERT_EQ(location.verdict, StreetVerdict::kLocated);
+  EXPECT_LT(location.fits.front().streets_from_map.translation_m().norm(), 5.0);
+}
+
 TEST(StreetLocalization, SearchesAlongTheWayUntilOnePlaceIsClear) {
   const auto way = in_map(way_along(kCorners_m), kStreetsFromMap);
   const StreetSearch search =

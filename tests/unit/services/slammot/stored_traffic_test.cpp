@@ -44,5 +44,15 @@ TEST_F(StoredTraffic, OfAMapWithoutAnyIsNone) {
   EXPECT_TRUE(store_in(second).traffic("car", example_submap(0).map_id).empty());
 }
 
+TEST_F(StoredTraffic, IsAddedToWhatASubmapHas) {
+  ASSERT_FALSE(write_stored_map(first.path(), {example_submap(0)}, "car"));
+  const traffic::SubmapTraffic traffic{{{0}, example_streams()}};
+  ASSERT_FALSE(write_stored_traffic(first.path(), traffic));
+  ASSERT_FALSE(write_stored_traffic(first.path(), traffic));
+  const auto stored = read_stored_traffic(first.path());
+  ASSERT_TRUE(stored);
+  EXPECT_EQ(stored->at({0}).size(), 2 * example_streams().size());
+}
+
 }  // namespace
 }  // namespace slammot
