@@ -422,6 +422,38 @@ class Odometry(AlteredDrive):
         self.assertEqual(3, sum(changed))
         self.assertIn((0.0, 0.0, 0.0), poses(alter.begun_anew(FLASER, 3)))
 
+    def test_clocks_drift_from_nothing_to_all(self):
+        drifted = poses(alter.clocks_drift(FLASER, 1.0))
+        times = FLASER.times()
+        for time_s, pose in zip(times, drifted):
+            self.assertAlmostEqual(true_pose(time_s * (1 - 1.0 / times[-1]))[2], pose[2], places=3)
+
+    def test_headings_late_keep_positions(self):
+        for time_s, before, after in zip(FLASER.times()[4:], poses(FLASER)[4:], poses(alter.headings_late(FLASER, 0.5))[4:]):
+            self.assertEqual(before[:2], after[:2])
+            self.assertAlmostEqual(true_pose(time_s - 0.5)[2], after[2], places=5)
+
+    def test_halves_swapped_begin_anew_and_go_on_in_time(self):
+        swapped = alter.halves_swapped(FLASER)
+        self.assertEqual([*range(SCANS // 2, SCANS), *range(SCANS // 2)], [scan.index for scan in swapped.scans()])
+        for stamp, scan in enumerate(swapped.scans()):
+            self.assertAlmostEqual(100 + STEP_S * (SCANS // 2 + stamp), stamp_of(scan), places=5)
+        self.assertEqual((0.0, 0.0, 0.0), swapped.scans()[SCANS // 2].wheel_from_base)
+        self.assertAlmostEqual(true_pose(1.0)[0], swapped.scans()[SCANS // 2 + 2].wheel_from_base[0], places=5)
+
+    def test_stray_poses_come_again_and_again(self):
+        sound = poses(FLASER)
+        zero = poses(alter.zero_poses(FLASER, 10, 2))
+        self.assertEqual([place % 10 >= 8 for place in range(len(sound))], [before != after for before, after in zip(sound, zero)])
+        self.assertEqual((0.0, 0.0, 0.0), zero[9])
+        spikes = poses(alter.spikes(FLASER, 10, 2.0, 60.0, 1))
+        self.assertEqual([place % 10 == 9 for place in range(len(sound))], [before != after for before, after in zip(sound, spikes)])
+        self.assertAlmostEqual(2.0, math.dist(sound[9][:2], spikes[9][:2]))
+        self.assertAlmostEqual(math.radians(60), abs(spikes[9][2] - sound[9][2]))
+        old = poses(alter.old_poses(FLASER, 10, 7))
+        self.assertEqual(sound[2], old[9])
+        self.assertEqual(sound[8], old[8])
+
     def test_another_point_is_where_it_says(self):
         for before, after in zip(poses(FLASER), poses(alter.of_another_point(FLASER, 1.0, 0.5))):
             self.assertAlmostEqual(math.hypot(1.0, 0.5), math.dist(before[:2], after[:2]), places=6)

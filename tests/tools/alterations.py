@@ -133,6 +133,23 @@ def cut(drive, from_s, to_s, no_time_passes):
     return dataclasses.replace(drive.replaced(moved), removed=drive.removed + ((start + from_s, start + to_s),))
 
 
+def halves_swapped(drive):
+    """Two recordings in one log: the second half of the drive, then the first one, for which odometry begins anew at zero. Stamps go on."""
+    scans = drive.scans()
+    middle = next(place for place, record in enumerate(drive.records) if record is scans[len(scans) // 2])
+    then, first = drive.records[:middle], drive.records[middle:]
+    start = next(record for record in then if not isinstance(record, Other))
+    usual_step_s = scans[-1].recorded_stamp - scans[-2].recorded_stamp
+    later_s = scans[-1].recorded_stamp + usual_step_s - scans[0].recorded_stamp
+
+    def begun_anew(record):
+        if isinstance(record, Other):
+            return record
+        record = with_pose(record, compound(inverse(start.wheel_from_base), record.wheel_from_base))
+        return with_stamps(record, *(f"{number(word) + later_s:.6f}" for word in (record.stamps[0], record.stamps[-1])))
+    return dataclasses.replace(drive, records=(*first, *map(begun_anew, then)))
+
+
 def driven_backwards(drive):
     """From its end to its start: the vehicle backs away from what the scanner sees. Lines that are neither scans nor odometry come first."""
     mirrored = stamps_backwards(drive).records
@@ -479,17 +496,32 @@ def missing(drive, from_s, to_s):
     return dataclasses.replace(drive, records=tuple(kept))
 
 
+def pose_at(records, times, wanted_s):
+    """Interpolated; before the first and after the last, that one's."""
+    wanted_s = min(max(wanted_s, times[0]), times[-1])
+    after = min(max(bisect.bisect_left(times, wanted_s), 1), len(times) - 1)
+    before_s, after_s = times[after - 1], times[after]
+    share = (wanted_s - before_s) / (after_s - before_s) if after_s > before_s else 1.0
+    return between(records[after - 1].wheel_from_base, records[after].wheel_from_base, share)
+
+
 def late(drive, lateness_s):
     """Each scan and ODOM line has the odometry of so much before it (< 0: after it)."""
     records, times = drive.odometry(), drive.times()
-    poses = []
-    for time_s in times:
-        wanted_s = min(max(time_s - lateness_s, times[0]), times[-1])
-        after = min(max(bisect.bisect_left(times, wanted_s), 1), len(times) - 1)
-        before_s, after_s = times[after - 1], times[after]
-        share = (wanted_s - before_s) / (after_s - before_s) if after_s > before_s else 1.0
-        poses.append(between(records[after - 1].wheel_from_base, records[after].wheel_from_base, share))
-    return drive.with_odometry(poses)
+    return drive.with_odometry([pose_at(records, times, time_s - lateness_s) for time_s in times])
+
+
+def clocks_drift(drive, lateness_s):
+    """The clock of odometry is slow: it is right at the first scan and so much late at the last record."""
+    records, times = drive.odometry(), drive.times()
+    return drive.with_odometry([pose_at(records, times, time_s - lateness_s * time_s / times[-1]) for time_s in times])
+
+
+def headings_late(drive, lateness_s):
+    """Each pose by the wheels has the heading of so much before it."""
+    records, times = drive.odometry(), drive.times()
+    return drive.with_odometry([(*record.wheel_from_base[:2], pose_at(records, times, time_s - lateness_s)[2])
+                                for record, time_s in zip(records, times)])
 
 
 def held(drive, period_s):
@@ -508,6 +540,37 @@ def begun_anew(drive, times):
     part = -(-len(records) // (times + 1))
     return drive.with_odometry([record.wheel_from_base if i < part else compound(inverse(records[i // part * part].wheel_from_base), record.wheel_from_base)
                                 for i, record in enumerate(records)])
+
+
+def with_stray_poses(drive, every, run, stray):
+    """Of each `every` poses by the wheels, scans' and ODOM lines' alike, the last `run` are stray(place of the record, place in the run)."""
+    poses = [record.wheel_from_base for record in drive.odometry()]
+    every, run = round(every), round(run)
+    return drive.with_odometry([stray(place, place % every - (every - run)) if place % every >= every - run else pose
+                                for place, pose in enumerate(poses)])
+
+
+def zero_poses(drive, every, run):
+    """Again and again poses by the wheels are zero."""
+    return with_stray_poses(drive, every, run, lambda place, place_in_run: (0.0, 0.0, 0.0))
+
+
+def spikes(drive, every, metres, degrees, seed):
+    """Each so many poses one lies so far from where it should, to any side, and is turned by so much to the left or right."""
+    records, drawn = drive.odometry(), random.Random(seed)
+
+    def elsewhere(place, place_in_run):
+        x, y, heading = records[place].wheel_from_base
+        direction = drawn.uniform(-math.pi, math.pi)
+        turned = math.radians(degrees) * drawn.choice((-1.0, 1.0))
+        return x + metres * math.cos(direction), y + metres * math.sin(direction), math.remainder(heading + turned, 2 * math.pi)
+    return with_stray_poses(drive, every, 1, elsewhere)
+
+
+def old_poses(drive, every, ago):
+    """Each so many poses one is that of so many records before."""
+    records = drive.odometry()
+    return with_stray_poses(drive, every, 1, lambda place, place_in_run: records[max(place - round(ago), 0)].wheel_from_base)
 
 
 def of_another_point(drive, ahead_m, left_m):
