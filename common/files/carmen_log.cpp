@@ -116,16 +116,23 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path,
                                   const CarmenLogOptions& options) {
   const RecordOptions record_options{options.topics, options.most_kept_bytes};
   std::optional<LogClock> sorted_by;
+  StrayOdometry stray;
   const auto open_in_order = [&]() -> Result<std::unique_ptr<RecordSource>> {
     auto opened = open_records(path, record_options);
-    if (!opened || !sorted_by) return opened;
-    return std::unique_ptr<RecordSource>(
-        std::make_unique<SortedRecords>(std::move(*opened), *sorted_by));
+    if (!opened) return opened;
+    std::unique_ptr<RecordSource> records = std::move(*opened);
+    if (sorted_by) records = std::make_unique<SortedRecords>(std::move(records), *sorted_by);
+    if (stray.count() > 0)
+      records = std::make_unique<WithoutStrayOdometry>(std::move(records), stray);
+    return records;
   };
   auto first_pass = read_once(open_in_order, options.most_kept_bytes);
   if (!first_pass) return first_pass.error();
   sorted_by = first_pass->survey.clock_of_disordered_scans();
   if (sorted_by) first_pass = read_once(open_in_order, options.most_kept_bytes);
+  if (!first_pass) return first_pass.error();
+  if (!options.is_as_live) stray = first_pass->survey.stray_odometry();
+  if (stray.count() > 0) first_pass = read_once(open_in_order, options.most_kept_bytes);
   if (!first_pass) return first_pass.error();
   RecordSource& read = *first_pass->records;
   const CarmenSurvey& survey = first_pass->survey;
@@ -142,6 +149,7 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path,
     return Error{path.string() + ": " + fault->message};
   LogPlan plan = survey.conclude(options.fallback_field_of_view_rad, wish);
   plan.scans_are_sorted = sorted_by.has_value();
+  plan.stray_odometry = stray.count();
   if (options.is_as_live) plan = as_live(std::move(plan));
   if (first_pass->has_kept_all) {
     CarmenLog log(std::move(first_pass->records), plan, options);
@@ -327,7 +335,7 @@ void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int6
   if (waits_for_odometry()) {
     if (wheel_from_base && plan_.odometry != OdometrySource::kOdomLines &&
         is_fresh(*wheel_from_base))
-      smooth_and_keep({stamp - lateness_ns(), *wheel_from_base});
+      smooth_and_keep({stamp - plan_.odometry_lateness_ns(stamp), *wheel_from_base});
     waiting_.push_back(std::move(scan));
     return put_waiting_scans(kMaxWaitingScans);
   }
@@ -351,12 +359,13 @@ void CarmenLog::take(const OdometryRecord& record) {
       is_timed_by_order() ? odometry_stamp_by_order_ns() : odometry_stamp_ns(record.stamps);
   if (!stamp) return is_timed_by_order() ? void() : note_malformed();
   if (!odometry_stamps_.believes(*stamp) ||
-      !smooth_and_keep({*stamp - lateness_ns(), pose_correction_.next(plan_.evidence.correction,
-                                                                      record.wheel_from_base)})) {
+      !smooth_and_keep(
+          {*stamp - plan_.odometry_lateness_ns(*stamp),
+           pose_correction_.next(plan_.evidence.correction, record.wheel_from_base)})) {
     ++faults_.stale_odometry;
     return;
   }
-  if (plan_.odometry == OdometrySource::kOdomLines || plan_.odometry_late_s != 0.0)
+  if (plan_.odometry == OdometrySource::kOdomLines || plan_.odometry_is_late())
     put_waiting_scans(kMaxWaitingScans);
 }
 
@@ -387,7 +396,7 @@ void CarmenLog::take(const ImuRecord& record) {
 
 /// Whether odometry that follows tells what it is at a scan.
 bool CarmenLog::waits_for_odometry() const {
-  return plan_.odometry_late_s != 0.0 || plan_.odometry_held_scans > 0 ||
+  return plan_.odometry_is_late() || plan_.odometry_held_scans > 0 ||
          plan_.odometry_smoothed_over > 0;
 }
 
@@ -409,8 +418,6 @@ bool CarmenLog::is_fresh(const geometry::Pose2& wheel_from_base) {
   held_scans_ = 0;
   return true;
 }
-
-std::int64_t CarmenLog::lateness_ns() const { return std::llround(plan_.odometry_late_s * 1e9); }
 
 /// Returns false unless it is newer than the lines held back.
 bool CarmenLog::keep_odometry(const sensing::Odometry& odometry) {
@@ -574,7 +581,7 @@ bool CarmenLog::is_long_before_odometry(std::int64_t stamp_ns) const {
 /// Interpolates between the last returned line and the first held-back one; uses the nearer one if
 /// only one exists. A vehicle that drives before the first line did so as it does after it.
 std::optional<geometry::Pose2> CarmenLog::wheel_from_base_at(std::int64_t stamp_ns) const {
-  const bool is_over = plan_.odometry_late_s != 0.0;  // no pose is known after the last late one
+  const bool is_over = plan_.odometry_is_late();  // no pose is known after the last late one
   if (odom_lines_.empty())
     return newest_odometry_ && !is_over ? std::optional(newest_odometry_->wheel_from_base)
                                         : std::nullopt;

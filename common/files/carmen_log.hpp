@@ -160,7 +160,6 @@ class CarmenLog {
   bool waits_for_odometry() const;
   bool smooth_and_keep(const sensing::Odometry& odometry);
   bool is_fresh(const geometry::Pose2& wheel_from_base);
-  std::int64_t lateness_ns() const;
   bool keep_odometry(const sensing::Odometry& odometry);
   void put_odometry(const sensing::Odometry& odometry);
   void put_odometry_until(std::int64_t stamp_ns);

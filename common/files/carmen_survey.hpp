@@ -12,6 +12,7 @@
 #include "common/files/mounting_params.hpp"
 #include "common/files/recorded_odometry.hpp"
 #include "common/files/scanner_survey.hpp"
+#include "common/files/stray_odometry.hpp"
 
 namespace slammot::files {
 
@@ -32,6 +33,8 @@ class CarmenSurvey {
   /// The clock by which the scans of a steady scanner were logged in another order than they were
   /// taken in (SortedRecords). A few scans that come late are left to localization.
   std::optional<LogClock> clock_of_disordered_scans() const;
+
+  StrayOdometry stray_odometry() const { return stray_odometry_of(scanners_, odometry_lines_); }
 
  private:
   ScannerSurvey& scanner_of(const LaserRecord& record);

@@ -20,6 +20,7 @@ LogPlan as_live(LogPlan plan) {
   plan.odometry_is_too_noisy = false;
   plan.odometry_is_too_rare = false;
   plan.odometry_late_s = 0.0;
+  plan.odometry_drift = 0.0;
   plan.odometry_stamps_ns.clear();
   plan.odometry_stamp_noise_s = 0.0;
   return plan;

@@ -130,7 +130,18 @@ bool is_far_off(double scale) { return scale > 0.0 && std::abs(scale - 1.0) > kT
 void describe_doubts(const LogPlan& plan, std::vector<std::string>& findings) {
   constexpr double kMostlyMatched = 0.5;
   const matching::LogEvidence& evidence = plan.evidence;
-  if (plan.odometry_late_s != 0.0)
+  if (plan.stray_odometry > 0)
+    findings.push_back(
+        text("%zu poses of odometry are far from those before and after them: left out",
+             plan.stray_odometry));
+  if (plan.odometry_drift != 0.0)
+    findings.push_back(
+        text("clocks of odometry and scanner drift apart by %.2f s over the log, odometry is %.2f "
+             "s %s in "
+             "the middle, by pairs of scans: taken back",
+             std::abs(plan.odometry_drift) * plan.figures.duration_s,
+             std::abs(plan.odometry_late_s), plan.odometry_late_s > 0.0 ? "late" : "early"));
+  else if (plan.odometry_late_s != 0.0)
     findings.push_back(text("odometry is %.2f s %s, by the turns of pairs of scans: taken back",
                             std::abs(plan.odometry_late_s),
                             plan.odometry_late_s > 0.0 ? "late" : "early"));

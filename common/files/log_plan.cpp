@@ -1,6 +1,7 @@
 #include "common/files/log_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace slammot::files {
 
@@ -21,6 +22,12 @@ std::optional<Error> select_scanners(const std::vector<std::string>& wanted,
       return std::ranges::find(wanted, scanner.name) == wanted.end();
     });
   return std::nullopt;
+}
+
+std::int64_t LogPlan::odometry_lateness_ns(std::int64_t stamp_ns) const {
+  const double since_ns =
+      odometry_drift == 0.0 ? 0.0 : static_cast<double>(stamp_ns - odometry_late_at_ns);
+  return std::llround(odometry_late_s * 1e9 + odometry_drift * since_ns);
 }
 
 }  // namespace slammot::files

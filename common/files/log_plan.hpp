@@ -114,12 +114,16 @@ struct LogPlan {
   bool odometry_is_too_noisy = false;      ///< Therefore it is not used,
   bool odometry_is_too_rare = false;       ///< or therefore.
   double odometry_late_s = 0.0;  ///< Lateness of its stamps against the scans; removed on reading.
+                                 ///< Where the clocks drift apart, at odometry_late_at_ns.
+  double odometry_drift = 0.0;   ///< Growth of the lateness with time, seconds a second.
+  std::int64_t odometry_late_at_ns = 0;
   std::vector<std::int64_t> odometry_stamps_ns;  ///< Of ODOM lines, without the noise of the
                                                  ///< recorded ones. Empty: the recorded ones.
   double odometry_stamp_noise_s = 0.0;           ///< One sigma of it.
   geometry::Pose2 base_from_laser;
   double max_range_m = 0.0;  ///< Readings at or beyond it are "no echo"; a scan's own record may
                              ///< have a lower limit.
+  std::size_t stray_odometry = 0;    ///< Poses of odometry that are none of the drive's, left out.
   bool scans_are_sorted = false;     ///< They were logged in another order.
   bool first_scan_is_ahead = false;  ///< The next two scans have consistent stamps far before the
                                      ///< first one's.
@@ -130,6 +134,10 @@ struct LogPlan {
   bool is_timed_by_order() const {
     return !times.stamps_ns.empty() && times.fault != sensing::ClockFault::kNoisy;
   }
+
+  bool odometry_is_late() const { return odometry_late_s != 0.0 || odometry_drift != 0.0; }
+  /// Of odometry with this stamp.
+  std::int64_t odometry_lateness_ns(std::int64_t stamp_ns) const;
 };
 
 inline constexpr double kNominalRateHz = 10.0;

@@ -53,49 +53,57 @@ std::vector<sensing::Odometry> stamped_odometry_of(const ScannerSurvey& scanner,
 
 /// Of a scanner that sweeps, odometry seems late by half of the sweep: the scan is stamped at its
 /// first beam. Whether it sweeps is not known yet.
-double fine_odometry_lateness_s(const ScannerSurvey& scanner, const LogPlan& plan,
-                                double fallback_field_of_view_rad,
-                                std::span<const double> scan_times_s,
-                                std::span<const matching::TimedPose> of_base, double roughly_s) {
+matching::OdometryDrift fine_odometry_lateness(const ScannerSurvey& scanner, const LogPlan& plan,
+                                               double fallback_field_of_view_rad,
+                                               std::span<const double> scan_times_s,
+                                               std::span<const matching::TimedPose> of_base,
+                                               double roughly_s) {
   constexpr double kLeast_s = 0.012;  // less is estimated during the drive
   constexpr double kSigmas = 5.0;
   constexpr double kMostSigma_s = 0.01;   // noise of wheels on an even drive looks like 0.02
   constexpr double kSlowestTurn_s = 0.2;  // of a scanner
   constexpr double kDense_s = 0.06;       // time between samples, in which a car turns evenly
   const matching::LogCorrection& correction = plan.evidence.correction;
+  const matching::OdometryDrift rough{roughly_s, 0.0, 0.0};
   const bool is_as_stated = correction.way_unit_m == 1.0 && correction.heading_unit_rad == 1.0 &&
                             !correction.reverses_beams && correction.field_factor == 1.0;
   const bool is_dense = of_base.size() > 1 && of_base.back().time_s - of_base.front().time_s <
                                                   kDense_s * static_cast<double>(of_base.size());
-  if (!is_as_stated || !is_dense || scan_times_s.size() < 2) return roughly_s;
+  if (!is_as_stated || !is_dense || scan_times_s.size() < 2) return rough;
   const std::vector<matching::ScanPair> pairs =
       with_echoes_of_others(scanner.pairs.timing_pairs(), plan);
-  if (pairs.empty()) return roughly_s;
+  if (pairs.empty()) return rough;
   const std::size_t beam_count = pairs.front().first.size();
   const matching::AssumedBeams beams =
       assumed_beams_of(scanner, plan, beam_count, fallback_field_of_view_rad);
-  const auto found = matching::odometry_timing(pairs, beams, correction.range_unit_m, scan_times_s,
-                                               of_base, roughly_s);
-  if (!found || found->sigma_s > kMostSigma_s) return roughly_s;
   const double swept_rad = std::abs(beams.beam_step_rad) * static_cast<double>(beam_count);
   const double period_s =
       (scan_times_s.back() - scan_times_s.front()) / static_cast<double>(scan_times_s.size());
   const double half_sweep_s =
       0.5 * swept_rad / (2.0 * std::numbers::pi) * std::min(period_s, kSlowestTurn_s);
-  const double late_s = found->late_s - 0.5 * half_sweep_s;  // swept or not
+  auto drifting = matching::odometry_drift(pairs, beams, correction.range_unit_m, scan_times_s,
+                                           of_base, roughly_s);
+  if (drifting) {
+    drifting->late_s -= 0.5 * half_sweep_s;  // swept or not
+    return *drifting;
+  }
+  const auto found = matching::odometry_timing(pairs, beams, correction.range_unit_m, scan_times_s,
+                                               of_base, roughly_s);
+  if (!found || found->sigma_s > kMostSigma_s) return rough;
+  const double late_s = found->late_s - 0.5 * half_sweep_s;
   const double least_s = 0.5 * half_sweep_s + std::max(kLeast_s, kSigmas * found->sigma_s);
-  return roughly_s != 0.0 || std::abs(late_s) > least_s ? late_s : 0.0;
+  const bool is_used = roughly_s != 0.0 || std::abs(late_s) > least_s;
+  return {is_used ? late_s : 0.0, 0.0, 0.0};
 }
 
-/// Of odometry that has the clock of the scans.
-double odometry_lateness_s(const ScannerSurvey& scanner,
-                           std::span<const sensing::Odometry> recorded, const LogPlan& plan,
-                           double fallback_field_of_view_rad) {
+/// Finds the lateness of odometry that has the clock of the scans.
+void remove_lateness(const ScannerSurvey& scanner, std::span<const sensing::Odometry> recorded,
+                     double fallback_field_of_view_rad, LogPlan& plan) {
   const bool has_clock =
       plan.clock != LogClock::kNominal && !plan.is_timed_by_order() && !plan.first_scan_is_ahead;
-  if (!has_clock) return 0.0;
+  if (!has_clock) return;
   const std::vector<std::int64_t> stamps_ns = scan_stamps_of(scanner, plan);
-  if (stamps_ns.empty()) return 0.0;
+  if (stamps_ns.empty()) return;
   const auto time_s = [&](std::int64_t stamp_ns) {
     return static_cast<double>(stamp_ns - stamps_ns.front()) * 1e-9;
   };
@@ -112,8 +120,11 @@ double odometry_lateness_s(const ScannerSurvey& scanner,
   const double roughly_s =
       matching::odometry_lateness_s(plan.evidence.motions, scan_times_s, odometry,
                                     {plan.evidence.way_scale, plan.evidence.turn_scale});
-  return fine_odometry_lateness_s(scanner, plan, fallback_field_of_view_rad, scan_times_s, of_base,
-                                  roughly_s);
+  const matching::OdometryDrift found = fine_odometry_lateness(
+      scanner, plan, fallback_field_of_view_rad, scan_times_s, of_base, roughly_s);
+  plan.odometry_late_s = found.late_s;
+  plan.odometry_drift = found.drift;
+  plan.odometry_late_at_ns = stamps_ns.front() + std::llround(1e9 * found.at_s);
 }
 
 /// Noisy odometry looks like slip, and between samples that come seldom a car brakes and turns.
@@ -148,6 +159,7 @@ void treat_poor_odometry(const ScannerSurvey& scanner, const OdometryLines& line
   if (plan.odometry_is_too_noisy || plan.odometry_is_too_rare) {
     plan.odometry = OdometrySource::kNone;
     plan.odometry_late_s = 0.0;
+    plan.odometry_drift = 0.0;
     plan.odometry_held_scans = 0;
     plan.odometry_stamps_ns.clear();
     plan.odometry_stamp_noise_s = 0.0;
@@ -195,7 +207,7 @@ void plan_odometry(const ScannerSurvey& scanner, const OdometryLines& lines,
   if (plan.odometry == OdometrySource::kNone) return;
   remove_noise_of_odometry_stamps(lines, plan);
   const std::vector<sensing::Odometry> odometry = stamped_odometry_of(scanner, lines, plan);
-  plan.odometry_late_s = odometry_lateness_s(scanner, odometry, plan, fallback_field_of_view_rad);
+  remove_lateness(scanner, odometry, fallback_field_of_view_rad, plan);
   treat_poor_odometry(scanner, lines, odometry, plan);
 }
 

@@ -181,6 +181,42 @@ TEST_F(CarmenLogTest, SortsScansThatWereLoggedInAnotherOrder) {
   EXPECT_FALSE(in_order.plan.scans_are_sorted);
 }
 
+/// ODOM lines 20 times a second and a scan each 0.2 s, at 1 m/s along x from x = 5 m; of the
+/// records whose number leaves 30 over by 49, counted together, the pose is zero.
+std::string drive_with_zeros(bool scans_have_poses) {
+  std::string log;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string s = std::to_string(100.0 + 0.05 * i);
+    const std::string pose = i % 49 == 30 ? "0 0 0" : std::to_string(5.0 + 0.05 * i) + " 0 0";
+    if (i % 5 == 0)
+      log +=
+          FlaserLine{.pose = scans_have_poses ? pose : "0 0 0", .ipc = "1" + s, .logger = s}.text();
+    else log += "ODOM " + pose + " 0 0 0 1" + s + " host " + s + "\n";
+  }
+  return log;
+}
+
+TEST_F(CarmenLogTest, LeavesOutStrayPosesOfScansAndOfOdometryLines) {
+  for (const bool scans_have_poses : {true, false}) {
+    const Reading reading = read(drive_with_zeros(scans_have_poses));
+    ASSERT_EQ(reading.scans.size(), 200U);
+    double before_m = 4.9;
+    for (const Odometry& odometry : reading.odometry) {
+      EXPECT_GE(odometry.wheel_from_base.x_m, before_m);
+      EXPECT_LT(odometry.wheel_from_base.x_m, before_m + 0.2);
+      before_m = odometry.wheel_from_base.x_m;
+    }
+    EXPECT_EQ(reading.plan.stray_odometry, scans_have_poses ? 20U : 16U);
+  }
+}
+
+TEST_F(CarmenLogTest, LeavesStrayPosesWhereNothingIsKnownBefore) {
+  write_file(file_, drive_with_zeros(true));
+  CarmenLogOptions options;
+  options.is_as_live = true;
+  EXPECT_EQ(read_with(options).plan.stray_odometry, 0U);
+}
+
 TEST_F(CarmenLogTest, LeavesAFewLateScansToLocalization) {
   std::string log = long_drive(400);
   log += FlaserLine{.pose = "112.3 0 0", .ipc = "1112.3", .logger = "140.0"}.text();

@@ -59,13 +59,13 @@ struct Log {
   std::vector<TimedPose> odometry;
 };
 
-Log log_with(double late_s, double way_factor = 1.0) {
+Log log_with(double late_s, double way_factor = 1.0, double drift = 0.0, int scans = kScans) {
   const testing::FloorPlan plan = hall();
   std::mt19937 random(3);
   Log log;
-  for (int i = 0; i < kScans; ++i) {
+  for (int i = 0; i < scans; ++i) {
     const double time_s = kPeriod_s * i;
-    Pose2 recorded = pose_at(time_s - late_s);
+    Pose2 recorded = pose_at(time_s - late_s - drift * time_s);
     recorded.x_m *= way_factor;
     recorded.y_m *= way_factor;
     log.scan_times_s.push_back(time_s);
@@ -100,6 +100,26 @@ TEST(OdometryTiming, IsNotMovedByWheelsThatCountTooMuch) {
   const auto found = timing_of(log_with(0.03, 1.04));
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->late_s, 0.03, 0.008);
+}
+
+std::optional<OdometryDrift> drift_of(const Log& log) {
+  return odometry_drift(log.pairs.pairs(), kForward, 1.0, log.scan_times_s, log.odometry, 0.0);
+}
+
+TEST(OdometryDrift, IsFoundOfClocksThatDriftApart) {
+  constexpr int kLong = 4 * kScans;
+  constexpr double kDrift = 7e-4;  // 0.1 s over the log
+  const auto found = drift_of(log_with(0.01, 1.0, kDrift, kLong));
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->drift, kDrift, 1e-4);
+  EXPECT_NEAR(found->at_s, 0.5 * kPeriod_s * kLong, kPeriod_s);
+  EXPECT_NEAR(found->late_s, 0.01 + kDrift * found->at_s, 0.006);
+}
+
+TEST(OdometryDrift, IsNoneOfALatenessThatStays) {
+  EXPECT_FALSE(drift_of(log_with(0.05, 1.0, 0.0, 4 * kScans)));
+  EXPECT_FALSE(drift_of(log_with(0.0, 1.03, 0.0, 4 * kScans)));
+  EXPECT_FALSE(drift_of(log_with(0.05))) << "a short log";
 }
 
 TEST(OdometryTiming, IsNotToldByAVehicleThatDrivesEvenly) {
