@@ -113,6 +113,7 @@ void Localizer::place_next(const sensing::LaserScan& scan) {
   before_scan_ = progress();
   if (!place(scan) || was_lost)
     before_scan_.reset();  // labels by a map in which it may be elsewhere are worth nothing
+  watch_factors(scan);
   watch_lateness(scan);
 }
 

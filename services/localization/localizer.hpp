@@ -19,6 +19,7 @@
 #include "services/localization/checkpoint.hpp"
 #include "services/localization/companion_echoes.hpp"
 #include "services/localization/expected_objects.hpp"
+#include "services/localization/factor_watch.hpp"
 #include "services/localization/frozen_scanner.hpp"
 #include "services/localization/keyframe_odometry.hpp"
 #include "services/localization/lateness_watch.hpp"
@@ -168,6 +169,7 @@ class Localizer final : public stages::LocalizationStage {
   bool place(const sensing::LaserScan& scan);
   void compare_odometry(const sensing::LaserScan& scan, const Step& step, const ScanMatch& found);
   void watch_lateness(const sensing::LaserScan& scan);
+  void watch_factors(const sensing::LaserScan& scan);
   void take_points(const sensing::LaserScan& scan, const Step& step);
   std::optional<ExplainedStep> explain(const sensing::LaserScan& scan, const Step& by_wheels);
   ScanMatch match_or_relocalize(const sensing::LaserScan& scan, const Step& step,
@@ -195,6 +197,7 @@ class Localizer final : public stages::LocalizationStage {
   MixtureMatch mixture_;
   KeyframeOdometry keyframes_;
   LatenessWatch lateness_;
+  FactorWatch factors_;
   LocalizationMonitor monitor_;
   Relocalization relocalization_;
   PublishedCovariance covariance_;

@@ -152,6 +152,41 @@ void OdometryPrediction::retime(double late_s, double sigma_s) {
   state_.belief = sensing::with_retimed_wheels(state_.belief, config_.belief);
 }
 
+void OdometryPrediction::rescale(const sensing::WheelFactors& factors) {
+  constexpr double kScaleSigma = 0.08;  // what few pairs of scans leave of the way's factor
+  sensing::OdometryBelief& belief = state_.belief;
+  belief = sensing::with_retimed_wheels(belief, config_.belief);
+  belief.factors = factors;
+  belief.estimator = sensing::WheelFactorEstimator(factors);
+  ++belief.recalibrations;
+  sensing::MotionModelConfig motion = motion_of_one_clock_;
+  motion.scale_prior = std::max(motion.scale_prior, kScaleSigma);
+  forget_calibration(sensing::at_start(motion));
+  state_.innovations = {};
+}
+
+/// All estimates begin with the priors of `fresh`, the two beside the estimate with that of what
+/// they learn, too.
+void OdometryPrediction::forget_calibration(const sensing::MotionEstimate& fresh) {
+  const auto begin_anew = [](const sensing::MotionEstimate& priors,
+                             sensing::MotionEstimate& estimate) {
+    estimate.calibration.setZero();
+    estimate.covariance.middleRows<sensing::kCalibrations>(3).setZero();
+    estimate.covariance.middleCols<sensing::kCalibrations>(3).setZero();
+    estimate.covariance.block<sensing::kCalibrations, sensing::kCalibrations>(3, 3) =
+        priors.covariance.block<sensing::kCalibrations, sensing::kCalibrations>(3, 3);
+  };
+  sensing::MotionModelConfig of_two_clocks = config_.motion;
+  of_two_clocks.scale_prior = std::sqrt(fresh.covariance(3, 3));
+  sensing::MotionEstimate of_pivot = fresh;
+  of_pivot.covariance.block<2, 2>(sensing::kPivot, sensing::kPivot) =
+      pivot_at_start().covariance.block<2, 2>(sensing::kPivot, sensing::kPivot);
+  begin_anew(fresh, state_.estimate);
+  begin_anew(sensing::at_start(of_two_clocks), state_.with_stamp_offset);
+  begin_anew(of_pivot, state_.with_pivot);
+  state_.applies_stamp_offset = state_.applies_pivot = false;
+}
+
 /// Learns the stamps' offset beside the estimate, which takes it over once it is certain.
 void OdometryPrediction::learn_stamp_offset(const Step& step, const ScanMatch& match) {
   if (config_.motion.stamp_offset_prior_s == 0.0 || state_.applies_stamp_offset) return;

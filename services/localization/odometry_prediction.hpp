@@ -174,6 +174,10 @@ class OdometryPrediction {
   /// read at the wrong time.
   void retime(double late_s, double sigma_s);
 
+  /// Odometry has these factors from the next step on. What was learned of it before is forgotten:
+  /// it was learned with others.
+  void rescale(const sensing::WheelFactors& factors);
+
   /// Feedback: how likely the scan is under each explanation, before observe().
   void weigh(const sensing::ExplanationWeights& weights) { state_.belief.weights = weights; }
   /// Weights of the explanations before the scan at hand.
@@ -227,6 +231,7 @@ class OdometryPrediction {
   void go_on_at_velocity(const sensing::MotionEstimate& before, Step& step) const;
   void go_on_without_wheels(Step& step) const;
   void adopt_wheel_factors();
+  void forget_calibration(const sensing::MotionEstimate& fresh);
   sensing::MotionEstimate pivot_at_start() const;
   void take_back_standing(const sensing::OdometryComparison& comparison);
   void learn_wheels(const Step& step, const ScanMatch& match);
