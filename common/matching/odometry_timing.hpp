@@ -31,8 +31,8 @@ std::optional<OdometryTiming> odometry_timing(std::span<const ScanPair> pairs,
                                               std::span<const double> scan_times_s,
                                               std::span<const TimedPose> odometry, double around_s);
 
-/// The same where lateness changes evenly over the drive, if that is certain: to five sigmas and a
-/// fifth of a period of 0.1 s, and if it explains the pairs clearly better than one lateness does.
+/// The same where lateness changes evenly over the drive, if that is certain: to five sigmas and
+/// 0.02 s, and if it explains the pairs clearly better than one lateness does.
 std::optional<OdometryDrift> odometry_drift(std::span<const ScanPair> pairs,
                                             const AssumedBeams& beams, double range_unit_m,
                                             std::span<const double> scan_times_s,
