@@ -247,9 +247,11 @@ void LocalizationService::localize(const WaitingScan& waiting) {
   const bool was_lost = localizer_.is_lost();
   const std::uint64_t astray_before = localizer_.counters().astray;
   const std::uint64_t retimed_before = localizer_.counters().retimed_odometry;
+  const std::uint64_t recalibrated_before = localizer_.counters().recalibrations;
   auto localized = localizer_.localize(scan);
   tell_whereabouts(was_lost, astray_before);
   tell_of_lateness(retimed_before);
+  tell_of_factors(recalibrated_before);
   if (localized) {
     localized->map_id = *drive_.map_id;
     localized->odom_id = drive_.odom_id;
@@ -261,30 +263,6 @@ void LocalizationService::localize(const WaitingScan& waiting) {
     scans_.answer_again(scan.scanner.scanner_id, scan.stamp_ns);
   }
   publish_finished_submaps();
-}
-
-void LocalizationService::tell_whereabouts(bool was_lost, std::uint64_t astray_before) {
-  if (localizer_.counters().astray > astray_before) {
-    app::log_warn(
-        "did not find itself: submap {} is tied to nothing until loop closing finds its place",
-        localizer_.local_map().submap_id().value);
-  } else if (localizer_.is_lost() && !was_lost) {
-    app::log_warn(
-        "lost: scans do not fit the map where the vehicle should be; looks for it in the local "
-        "map");
-  } else if (was_lost && !localizer_.is_lost()) {
-    app::log_info("found itself again in the local map");
-  }
-  if (localizer_.is_lost())
-    context_.status().set_trouble("lost", "looks for itself in the local map");
-  else context_.status().clear_trouble("lost");
-}
-
-void LocalizationService::tell_of_lateness(std::uint64_t retimed_before) const {
-  if (localizer_.counters().retimed_odometry == retimed_before) return;
-  const double late_ms = 1e3 * localizer_.stamp_offset_s();
-  app::log_warn("odometry is stamped {:.0f} ms {} against the scans: read so from now on",
-                std::abs(late_ms), late_ms > 0.0 ? "late" : "early");
 }
 
 void LocalizationService::publish_finished_submaps() {

@@ -97,6 +97,7 @@ class LocalizationService {
   void localize(const WaitingScan& waiting);
   void tell_whereabouts(bool was_lost, std::uint64_t astray_before);
   void tell_of_lateness(std::uint64_t retimed_before) const;
+  void tell_of_factors(std::uint64_t recalibrated_before) const;
   void publish_finished_submaps();
   app::CommandResult finish_submap();
 
