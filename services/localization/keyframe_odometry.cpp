@@ -228,16 +228,22 @@ std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen&
   if (!is_far(by_wheels) && !is_far(expected) && duration_s < long_s) return std::nullopt;
   if (is_still && state_.compared_ns && step.stamp_ns - *state_.compared_ns < kAgain_ns)
     return std::nullopt;
-  const Pose2 as_believed = seen.prediction.as_believed(by_wheels, duration_s);
-  last_ = sensing::OdometryComparison{by_wheels, as_believed,
-                                      registered(expected, as_believed, seen.points), duration_s};
+  return compare(seen, {by_wheels, expected, duration_s, is_still});
+}
+
+sensing::OdometryComparison KeyframeOdometry::compare(const Seen& seen,
+                                                      const SinceKeyframe& motion) {
+  const Pose2 as_believed = seen.prediction.as_believed(motion.by_wheels, motion.duration_s);
+  last_ = sensing::OdometryComparison{motion.by_wheels, as_believed,
+                                      registered(motion.expected, as_believed, seen.points),
+                                      motion.duration_s};
   Standing standing = Standing::kConfirmed;
   if (as_believed.translation_m().norm() > kStands_m) judge_way(as_believed, seen.points, *last_);
-  else if (is_still) standing = judge_standing(as_believed, seen.points, *last_);
-  state_.compared_ns = step.stamp_ns;
-  if (is_still && standing == Standing::kUnclear && duration_s < kPatience_s) {
+  else if (motion.is_still) standing = judge_standing(as_believed, seen.points, *last_);
+  state_.compared_ns = seen.step.stamp_ns;
+  if (motion.is_still && standing == Standing::kUnclear && motion.duration_s < kPatience_s) {
     state_.is_in_doubt = true;  // the next scans are compared with the same place
-    return last_;
+    return *last_;
   }
   // Sound odometry is looked at a few times a second only.
   state_.is_in_doubt = !last_->by_scans || last_->extra_odds != 0.0 ||
@@ -247,11 +253,11 @@ std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen&
   auto& by_scans = last_->by_scans;
   // Traffic on all sides, and the ground that a braking scanner sees, move along: that the vehicle
   // stands is not told by a pair of scans.
-  const double way_by_wheels_m = by_wheels.translation_m().norm();
+  const double way_by_wheels_m = motion.by_wheels.translation_m().norm();
   if (by_scans && way_by_wheels_m > kLeastWay_m &&
       by_scans->pose.translation_m().norm() < kMovesAlong * way_by_wheels_m)
     by_scans.reset();
-  return last_;
+  return *last_;
 }
 
 }  // namespace slammot::localization

@@ -60,6 +60,13 @@ class KeyframeOdometry {
   std::optional<sensing::OdometryComparison> observe(const Seen& seen);
 
  private:
+  struct SinceKeyframe {
+    geometry::Pose2 by_wheels;
+    geometry::Pose2 expected;  ///< By the estimate.
+    double duration_s = 0.0;
+    bool is_still = false;
+  };
+  sensing::OdometryComparison compare(const Seen& seen, const SinceKeyframe& motion);
   void begin(const Seen& seen);
   void map_keyframe();
   matching::PointToLineResult registered_about(const geometry::UncertainPose2& expected,

@@ -33,8 +33,9 @@ void LocalizationService::tell_of_lateness(std::uint64_t retimed_before) const {
 void LocalizationService::tell_of_factors(std::uint64_t recalibrated_before) const {
   if (localizer_.counters().recalibrations == recalibrated_before) return;
   const sensing::WheelFactors factors = localizer_.odometry_conclusions().total;
-  app::log_warn("odometry is wrong: its ways count {:.2f} times, its turns {:.2f} times from now on",
-                factors.way, factors.turn);
+  app::log_warn(
+      "odometry is wrong: its ways count {:.2f} times, its turns {:.2f} times from now on",
+      factors.way, factors.turn);
 }
 
 }  // namespace slammot::localization

@@ -294,8 +294,4 @@ void Localizer::go_on_after(const flow::CorrectedSubmap& last) {
   if (!prediction_.last()) submaps_.go_on_after(last);
 }
 
-sensing::OdometryConclusions Localizer::odometry_conclusions() const {
-  return episodes_.conclusions(calibration(), applies_stamp_offset() ? stamp_offset_s() : 0.0);
-}
-
 }  // namespace slammot::localization

@@ -19,4 +19,8 @@ void Localizer::watch_factors(const sensing::LaserScan& scan) {
   before_scan_.reset();                // before it odometry had the other factors
 }
 
+sensing::OdometryConclusions Localizer::odometry_conclusions() const {
+  return episodes_.conclusions(calibration(), applies_stamp_offset() ? stamp_offset_s() : 0.0);
+}
+
 }  // namespace slammot::localization

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "services/localization/keyframe_priors.hpp"
 #include "services/localization/map_agreement.hpp"
 
 namespace slammot::localization {
@@ -23,16 +22,11 @@ constexpr double kLeastOfUsualShare = 0.6;  // of the usual matched share: with 
 
 constexpr std::size_t kWheels = 0;  // places of the explanations that set the window of a search
 constexpr std::size_t kRough = 1;
-constexpr std::size_t kOther = 2;
+constexpr std::size_t kOther = kOtherStep;
 constexpr double kStands_s = 1.0;  // without motion by odometry: what walks around it moves the
                                    // scan, not the vehicle
 constexpr double kIndependentShare = 0.4;  // of the points: neighbours share the errors of a
                                            // surface
-
-/// Place of a wide explanation; without odometry there is only one.
-std::size_t widest(const StepToExplain& scan, std::size_t wanted) {
-  return std::min(wanted, scan.steps.size() - 1);
-}
 
 constexpr double kUsualDrop = 0.07;         // of the matched share, from scan to scan
 constexpr std::size_t kLikelySteps = 2;     // the last ones of a mixture without odometry: like the
@@ -43,7 +37,6 @@ constexpr std::size_t kPosesAnywhere = 12;  // and where any step is looked for:
                                             // come before the one that looks into an unseen one
 constexpr double kClearlyMore = 0.1;        // of the points
 constexpr double kBacks_m = 0.1;            // way out of the view
-constexpr double kMostEchoes = 1000.0;      // weight limit: more than a scan has
 constexpr std::size_t kStepsToKnow = 10;    // before it is known how well scans usually fit
 
 /// Share of a scan's points that say on their own whether they match: those of scans shortly after
@@ -65,11 +58,6 @@ double weight_of_evidence(const Step& step) {
   return is_without ? kWithoutOdometry : 1.0;
 }
 
-double log_likelihood_of(const Step& step, const geometry::Pose2& optimum,
-                         const matching::PointToLineResult& registered) {
-  return sensing::log_marginal_likelihood(step.prior(), optimum, registered.scan_information);
-}
-
 /// Way of the laser towards the middle of what it sees.
 double moved_into_view_m(const ScanPoints& points, const geometry::Pose2& before_from_now) {
   const geometry::Vector2& laser_m = points.laser_in_base_m();
@@ -88,27 +76,11 @@ Step by_scan_alone(Step step) {
   return step;
 }
 
-/// Odometry that reports a change of velocity which no vehicle makes is wrong, whatever the scan
-/// says.
-double dynamics(const Step& step, const Step& by_velocity) {
-  if (by_velocity.source != StepSource::kVelocityAlone ||
-      step.explanation == StepExplanation::kOther)
-    return 0.0;
-  return sensing::log_likelihood_of_acceleration(step.before_from_base,
-                                                 by_velocity.before_from_base, step.duration_s);
-}
-
 MixtureMatch::MixtureMatch(const LocalizerConfig& config)
     : config_(config),
       search_(config, kPoses),
       search_anywhere_(config, kPosesAnywhere),
-      config_of_scans_(config.match),
-      surfels_(grids::window_around(geometry::Vector2::Zero(), 2.0 * config.echoes.match_range_m,
-                                    config.map.surfel_size_m),
-               kMostEchoes) {
-  config_of_scans_.unproven_share = 1.0;
-  config_of_scans_.proven_after_m = 0.0;
-}
+      overlap_(config) {}
 
 /// Every explanation at the pose that odometry leads to: what a pose close by would say of them
 /// differs little.
@@ -128,56 +100,10 @@ MixtureMatch::Best MixtureMatch::at_prediction(const StepToExplain& scan,
   return best;
 }
 
-/// What is known of a pose before the scan is said of it: without odometry that steps repeat, with
-/// it what each explanation predicts.
-MixtureMatch::LogLikelihoods MixtureMatch::log_priors(
-    const StepToExplain& scan, const geometry::Pose2& optimum,
-    const matching::PointToLineResult& registered) {
-  LogLikelihoods logs;
-  logs.fill(-std::numeric_limits<double>::infinity());
-  const Step& first = scan.steps.front();
-  if (first.source == StepSource::kReach) {
-    logs[sensing::index_of(StepExplanation::kOther)] = scan.history.log_marginal(
-        first.odom_from_base_before, first.prior(), optimum, registered.scan_information);
-    return logs;
-  }
-  const Step& by_velocity = scan.steps[widest(scan, kOther)];
-  for (const Step& step : scan.steps)
-    logs[sensing::index_of(step.explanation)] =
-        log_likelihood_of(step, optimum, registered) + dynamics(step, by_velocity);
-  return logs;
-}
-
-/// Of the explanations that are one and the same to sensing, the one whose prediction is nearest to
-/// the pose.
-std::size_t MixtureMatch::likeliest_step(const StepToExplain& scan, std::size_t explanation,
-                                         const geometry::Pose2& optimum,
-                                         const matching::PointToLineResult& registered) {
-  std::size_t best = 0;
-  double most = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < scan.steps.size(); ++i) {
-    if (sensing::index_of(scan.steps[i].explanation) != explanation) continue;
-    const double log_likelihood = log_likelihood_of(scan.steps[i], optimum, registered);
-    if (log_likelihood <= most) continue;
-    most = log_likelihood;
-    best = i;
-  }
-  return best;
-}
-
-void MixtureMatch::map_points(const ScanPoints& points) {
-  surfels_.clear();
-  for (const matching::MatchPoint& point : points.matched()) surfels_.add(point.in_base_m);
-}
-
-MixtureMatch::Overlap MixtureMatch::overlap(const StepToExplain& scan,
-                                            const matching::PointToLineResult& registered) {
-  const geometry::UncertainPose2 prior = about(geometry::inverse(registered.map_from_base.pose) *
-                                               scan.steps.front().odom_from_base_before.pose);
-  const matching::PointToLineResult before_on_scan = match_scans_.match(
-      scan.points.matched_before(), surfels_, prior, prior.pose, config_of_scans_);
-  return {matching::fit_of(registered, config_.match.robust_scale_m),
-          matching::fit_of(before_on_scan, config_.match.robust_scale_m)};
+double MixtureMatch::before_on_scan(const StepToExplain& scan,
+                                    const matching::PointToLineResult& registered) {
+  return overlap_.before_on_scan(scan.points, geometry::inverse(registered.map_from_base.pose) *
+                                                  scan.steps.front().odom_from_base_before.pose);
 }
 
 /// A scanner that moves away from what it sees has half of its echoes where the map has none yet:
@@ -193,11 +119,11 @@ bool MixtureMatch::backs_away(const StepToExplain& scan, ScanMatcher& matcher) {
   const geometry::Pose2 before_from_now =
       geometry::inverse(first.odom_from_base_before.pose) * prior.pose;
   if (moved_into_view_m(scan.points, before_from_now) > -kBacks_m) return false;
-  map_points(scan.points);
-  const Overlap found =
-      overlap(scan, matcher.register_from(prior.pose, prior,
-                                          {scan.points.matched(), scan.map.surfels(), likely}));
-  return found.before_on_scan > found.on_map + kClearlyMore;
+  overlap_.map_points(scan.points);
+  const matching::PointToLineResult registered =
+      matcher.register_from(prior.pose, prior, {scan.points.matched(), scan.map.surfels(), likely});
+  return before_on_scan(scan, registered) >
+         matching::fit_of(registered, config_.match.robust_scale_m) + kClearlyMore;
 }
 
 /// Registers from one pose under a wide prediction, and compares every explanation there with the
@@ -215,7 +141,7 @@ void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
   const double contradicted_share =
       agreement(scan.points, pose, scan.map.evidence(), config_.map).contradicting_share();
   double fits_share = matching::fit_of(registered, config_.match.robust_scale_m);
-  if (*backs_away_) fits_share = std::max(fits_share, overlap(scan, registered).before_on_scan);
+  if (*backs_away_) fits_share = std::max(fits_share, before_on_scan(scan, registered));
   fits_share -= contradicted_share;
   const double fit = config_.belief.share_nats * scan.points.evidence_share() *
                      independent_share(scan.steps.front()) *
@@ -243,7 +169,7 @@ std::vector<geometry::Pose2> MixtureMatch::poses_around(const StepToExplain& sca
   const geometry::Pose2& before = scan.steps.front().odom_from_base_before.pose;
   for (const geometry::Pose2& now_from_before :
        search.poses_around({geometry::inverse(prior.pose) * before, prior.covariance},
-                           scan.points.matched_before(), surfels_))
+                           scan.points.matched_before(), overlap_.surfels()))
     poses.push_back(before * geometry::inverse(now_from_before));
   return poses;
 }
@@ -260,7 +186,7 @@ void MixtureMatch::around(const StepToExplain& scan, std::size_t explanation, Sc
   if (!backs_away_) backs_away_ = backs_away(scan, matcher);
   const Step& prediction = scan.steps[explanation];
   scan.take_points(prediction);
-  if (*backs_away_) map_points(scan.points);
+  if (*backs_away_) overlap_.map_points(scan.points);
   const geometry::UncertainPose2 prior = prediction.prior();
   compare(scan, explanation, prior.pose, matcher, best);
   if (!is_vague(prior, config_)) return;
