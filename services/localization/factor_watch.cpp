@@ -121,7 +121,13 @@ bool FactorWatch::tells(const Pose2& by_wheels) const {
   return tells_way || tells_turn;
 }
 
+bool FactorWatch::has_ended() const {
+  constexpr std::size_t kMostPairs = 200;  // along bare walls none tells anything
+  return pairs_ >= kMostPairs || (ways_.is_settled() && turns_.is_settled());
+}
+
 void FactorWatch::compare(const Pose2& by_wheels, const Points& second) {
+  ++pairs_;
   if (first_.size() < kFewestOfPair || second.size() < kFewestOfPair) return;
   set_target(first_, matcher_);
   const double reach_rad =
@@ -144,7 +150,7 @@ void FactorWatch::compare(const Pose2& by_wheels, const Points& second) {
 
 std::optional<sensing::WheelFactors> FactorWatch::observe(const Seen& seen,
                                                           const sensing::WheelFactors& in_use) {
-  if (ways_.is_settled() && turns_.is_settled()) return std::nullopt;
+  if (has_ended()) return std::nullopt;
   if (scanner_id_.empty()) scanner_id_ = seen.scanner_id;
   if (seen.scanner_id != scanner_id_) return std::nullopt;
   if (!has_first_) {

@@ -47,9 +47,9 @@ class FactorRatios {
 /// Finds factors of odometry's ways and turns that are wrong from the start of a drive on a live
 /// bus. Scans a metre or 0.15 rad apart by odometry are matched by correlation, wherever
 /// odometry or the estimate has them: the map cannot tell, since it was made with the factors.
-/// Ends once both are known, so that it costs nothing later. Where a log is read, they are known
-/// before its first scan (matching::weigh_log). Not in a checkpoint: after a restart it looks
-/// again. Reads no clock.
+/// Ends once both are known, or after 200 pairs, so that it costs nothing later. Where a log is
+/// read, they are known before its first scan (matching::weigh_log). Not in a checkpoint: after a
+/// restart it looks again. Reads no clock.
 class FactorWatch {
  public:
   /// A scan that was matched.
@@ -68,6 +68,8 @@ class FactorWatch {
   /// The scan before cannot be compared with those that follow.
   void begin_anew() { has_first_ = false; }
 
+  bool has_ended() const;
+
   std::size_t ways() const { return ways_.size(); }
   std::size_t turns() const { return turns_.size(); }
 
@@ -85,6 +87,7 @@ class FactorWatch {
   Points first_;  ///< In its base.
   FactorRatios ways_;
   FactorRatios turns_;
+  std::size_t pairs_ = 0;  ///< Compared.
 };
 
 }  // namespace slammot::localization

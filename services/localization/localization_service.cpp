@@ -24,6 +24,7 @@ constexpr auto kTurn = 10ms;
 LocalizerConfig config_of(const LocalizationService::Settings& settings) {
   LocalizerConfig config = settings.config;
   config.odometry.watches_lateness = !settings.log_is_examined;
+  config.odometry.watches_factors = !settings.log_is_examined;
   return config;
 }
 

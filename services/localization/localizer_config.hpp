@@ -42,6 +42,7 @@ struct OdometryConfig {
                                   ///< counted.
   bool watches_lateness = true;  ///< Finds odometry's lateness by pairs of scans while driving. Off
                                  ///< where a log was examined before.
+  bool watches_factors = true;   ///< The same for factors of its ways and turns.
   double far_ahead_s = 60.0;     ///< A stamp so far ahead of those before is believed when a second
                                  ///< one agrees.
 };

@@ -5,7 +5,7 @@ namespace slammot::localization {
 /// Odometry whose ways or turns clearly have another factor is corrected by it from the next scan
 /// on.
 void Localizer::watch_factors(const sensing::LaserScan& scan) {
-  if (!config_.odometry.watches_lateness || !config_.belief.enabled) return;
+  if (!config_.odometry.watches_factors || !config_.belief.enabled) return;
   const OdometryPrediction::LastScan& last = *prediction_.last();
   if (!last.has_wheels) return factors_.begin_anew();
   const auto found =

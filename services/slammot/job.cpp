@@ -177,6 +177,7 @@ files::Result<Job> prepare_job(const JobOptions& options) {
     profile.localization.echoes.sweep_factor_sigma =
         std::max(profile.localization.echoes.sweep_factor_sigma, 1.0);
   profile.localization.odometry.watches_lateness = options.is_as_live;
+  profile.localization.odometry.watches_factors = options.is_as_live;
   if (!options.is_as_live) {
     set_initial_odometry_scale(files::way_factor_of(drive->plan), profile.localization);
     profile.localization.belief.enabled = files::scans_show_motion(drive->plan);

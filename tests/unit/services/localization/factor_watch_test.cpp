@@ -81,7 +81,7 @@ FactoredDrive drive_with_factors(double way, double turn, bool watches) {
   SimulatedDrive drive(weaving_along());
   LocalizerConfig config = small_map_config();
   config.map.side_m = 160.0;
-  config.odometry.watches_lateness = watches;
+  config.odometry.watches_factors = watches;
   Localizer localizer(config);
   Pose2 wheel_from_base;
   for (std::uint32_t scan = 0; scan < 150; ++scan) {
@@ -104,6 +104,23 @@ TEST(FactorWatch, FindsTheFactorOfTheWayWithinSeconds) {
     EXPECT_GE(result.recalibrations, 1U) << way;
     EXPECT_NEAR(result.factors.way * way, 1.0, 0.05);
   }
+}
+
+TEST(FactorWatch, FindsNothingWhereItIsOff) {
+  EXPECT_EQ(drive_with_factors(0.7, 1.0, false).recalibrations, 0U);
+}
+
+TEST(FactorWatch, EndsAlsoWhereScansTellNothing) {
+  FactorWatch watch;
+  const std::string scanner = "front";
+  const std::vector<matching::MatchPoint> nothing;
+  Pose2 wheel_from_base;
+  while (!watch.has_ended()) {
+    ASSERT_LT(wheel_from_base.x_m, 1000.0);
+    wheel_from_base.x_m += 1.1;
+    EXPECT_FALSE(watch.observe({scanner, wheel_from_base, nothing}, {}));
+  }
+  EXPECT_EQ(watch.ways(), 0U);
 }
 
 TEST(FactorWatch, FindsNothingInSoundOdometry) {
