@@ -20,14 +20,14 @@ bool are_of_one_scanner(const LaserRecord& one, const LaserRecord& other) {
 
 std::optional<CarmenRecord> SortedRecords::next() {
   while (waiting_scans_ <= kFarthest) {
-    auto record = records_->next();
+    auto record = records().next();
     if (!record) break;
     if (std::holds_alternative<ParamRecord>(*record)) {  // refers to its line
-      line_number_ = records_->line_number();
+      line_number_ = records().line_number();
       return record;
     }
     const bool is_scan = std::holds_alternative<LaserRecord>(*record);
-    waiting_.push_back({std::move(*record), records_->line_number()});
+    waiting_.push_back({std::move(*record), records().line_number()});
     if (is_scan) sort_in();
   }
   if (waiting_.empty()) return std::nullopt;

@@ -4,7 +4,7 @@
 #include <deque>
 #include <memory>
 
-#include "common/files/record_source.hpp"
+#include "common/files/record_filter.hpp"
 
 namespace slammot::files {
 
@@ -13,22 +13,16 @@ enum class LogClock : std::uint8_t;
 /// Records of a log with the scans of each scanner in the order of their stamps, where these are
 /// not far out of order in the log. Scans change places among each other; all other records stay
 /// where they are.
-class SortedRecords : public RecordSource {
+class SortedRecords : public RecordFilter {
  public:
   /// A scan comes at most so many records of scans too late.
   static constexpr std::size_t kFarthest = 64;
 
   SortedRecords(std::unique_ptr<RecordSource> records, LogClock clock)
-      : records_(std::move(records)), clock_(clock) {}
+      : RecordFilter(std::move(records)), clock_(clock) {}
 
   std::optional<CarmenRecord> next() override;
   std::uint64_t line_number() const override { return line_number_; }
-  double fraction_read() const override { return records_->fraction_read(); }
-  std::uint64_t overlong_lines() const override { return records_->overlong_lines(); }
-  bool last_line_is_unfinished() const override { return records_->last_line_is_unfinished(); }
-  bool is_cut() const override { return records_->is_cut(); }
-  std::string damage() const override { return records_->damage(); }
-  TopicChoice topics() const override { return records_->topics(); }
 
  private:
   struct Place {
@@ -37,7 +31,6 @@ class SortedRecords : public RecordSource {
   };
   void sort_in();
 
-  std::unique_ptr<RecordSource> records_;
   LogClock clock_;
   std::deque<Place> waiting_;
   std::size_t waiting_scans_ = 0;

@@ -126,7 +126,7 @@ StrayOdometry stray_odometry_of(const std::deque<ScannerSurvey>& scanners,
 }
 
 std::optional<CarmenRecord> WithoutStrayOdometry::next() {
-  while (auto record = records_->next()) {
+  while (auto record = records().next()) {
     if (auto* laser = std::get_if<LaserRecord>(&*record)) mend(*laser);
     const auto* odometry = std::get_if<OdometryRecord>(&*record);
     if (odometry == nullptr || !is_stray(*odometry)) return record;

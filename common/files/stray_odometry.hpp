@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "common/files/record_source.hpp"
+#include "common/files/record_filter.hpp"
 #include "common/files/recorded_odometry.hpp"
 #include "common/files/scanner_survey.hpp"
 
@@ -33,25 +33,17 @@ StrayOdometry stray_odometry_of(const std::deque<ScannerSurvey>& scanners,
                                 const OdometryLinesByKind& lines);
 
 /// Records of a log without its stray odometry.
-class WithoutStrayOdometry : public RecordSource {
+class WithoutStrayOdometry : public RecordFilter {
  public:
   WithoutStrayOdometry(std::unique_ptr<RecordSource> records, StrayOdometry stray)
-      : records_(std::move(records)), stray_(std::move(stray)) {}
+      : RecordFilter(std::move(records)), stray_(std::move(stray)) {}
 
   std::optional<CarmenRecord> next() override;
-  std::uint64_t line_number() const override { return records_->line_number(); }
-  double fraction_read() const override { return records_->fraction_read(); }
-  std::uint64_t overlong_lines() const override { return records_->overlong_lines(); }
-  bool last_line_is_unfinished() const override { return records_->last_line_is_unfinished(); }
-  bool is_cut() const override { return records_->is_cut(); }
-  std::string damage() const override { return records_->damage(); }
-  TopicChoice topics() const override { return records_->topics(); }
 
  private:
   bool is_stray(const OdometryRecord& record);
   void mend(LaserRecord& record);
 
-  std::unique_ptr<RecordSource> records_;
   StrayOdometry stray_;
   std::map<StrayOdometry::Scanner, std::size_t> scans_;  ///< So far,
   std::array<std::size_t, 2> lines_{};                   ///< as are these.

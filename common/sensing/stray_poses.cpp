@@ -21,10 +21,9 @@ StepSize step_between(const geometry::Pose2& before, const geometry::Pose2& afte
           std::abs(geometry::wrap_angle(after.heading_rad - before.heading_rad))};
 }
 
-constexpr StepSize kLeast{0.1, 0.2};  // less is noise, which localization can take
-
 /// From which on a step away and back is none of the vehicle's.
 StepSize impossible_step(std::span<const geometry::Pose2> poses) {
+  constexpr StepSize kLeast{0.1, 0.2};  // less is noise, which localization can take
   constexpr double kMostUsual = 0.9;
   constexpr double kFactor = 2.0;
   std::vector<double> ways_m;
@@ -74,18 +73,6 @@ std::vector<StrayPose> stray_poses(std::span<const geometry::Pose2> wheel_from_b
   }
   if (found.size() * kMostOneIn > wheel_from_base.size()) found.clear();
   return found;
-}
-
-std::size_t stray_before_last(std::span<const geometry::Pose2> wheel_from_base) {
-  if (wheel_from_base.size() < kFewest) return 0;
-  const std::size_t last = wheel_from_base.size() - 1;
-  const auto stray_by = [&](const StepSize& impossible) {
-    std::size_t row = 1;
-    while (row <= kMostInARow && stray_after(wheel_from_base, last - row - 1, impossible) != row)
-      ++row;
-    return row <= kMostInARow ? row : 0;
-  };
-  return stray_by(kLeast) == 0 ? 0 : stray_by(impossible_step(wheel_from_base));
 }
 
 }  // namespace slammot::sensing

@@ -24,8 +24,4 @@ struct StrayPose {
 /// is returned then. wheel_from_base: in order of time, headings in radians, wrapped or not.
 std::vector<StrayPose> stray_poses(std::span<const geometry::Pose2> wheel_from_base);
 
-/// How many poses just before the last one are stray; 0, 1 or 2. As stray_poses(), of what is known
-/// so far.
-std::size_t stray_before_last(std::span<const geometry::Pose2> wheel_from_base);
-
 }  // namespace slammot::sensing
