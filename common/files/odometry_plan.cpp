@@ -81,14 +81,14 @@ matching::OdometryDrift fine_odometry_lateness(const ScannerSurvey& scanner, con
       (scan_times_s.back() - scan_times_s.front()) / static_cast<double>(scan_times_s.size());
   const double half_sweep_s =
       0.5 * swept_rad / (2.0 * std::numbers::pi) * std::min(period_s, kSlowestTurn_s);
-  auto drifting = matching::odometry_drift(pairs, beams, correction.range_unit_m, scan_times_s,
-                                           of_base, roughly_s);
-  if (drifting) {
+  const matching::LogToTime log{pairs,        beams,   correction.range_unit_m,
+                                scan_times_s, of_base, roughly_s};
+  const matching::MotionsByScans motions = matching::motions_by_scans(log);
+  if (auto drifting = matching::odometry_drift(motions, log)) {
     drifting->late_s -= 0.5 * half_sweep_s;  // swept or not
     return *drifting;
   }
-  const auto found = matching::odometry_timing(pairs, beams, correction.range_unit_m, scan_times_s,
-                                               of_base, roughly_s);
+  const auto found = matching::odometry_timing(motions, log);
   if (!found || found->sigma_s > kMostSigma_s) return rough;
   const double late_s = found->late_s - 0.5 * half_sweep_s;
   const double least_s = 0.5 * half_sweep_s + std::max(kLeast_s, kSigmas * found->sigma_s);

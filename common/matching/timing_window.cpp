@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/matching/common_factor.hpp"
+
 namespace slammot::matching {
 namespace {
 
 constexpr std::size_t kFewestInWindow = 5;
-constexpr double kWorstSquared = 9.0;  // of one quantity; limits the effect of wrong matches
-constexpr double kFactorPrior = 0.1;   // one sigma of the common factor of turns, and of ways: that
-                                       // of a log is known before
-constexpr std::size_t kBendOver = 2;   // delays to either side: there the errors are a parabola
-
-double weight_of(const TimedQuantity& quantity) { return 1.0 / (quantity.sigma * quantity.sigma); }
+constexpr double kFactorSigma = 0.1;  // of the common factor of turns, and of ways: that of a log
+                                      // is known before
+constexpr std::size_t kBendOver = 2;  // delays to either side: there the errors are a parabola
 
 }  // namespace
 
@@ -36,52 +35,41 @@ std::size_t TimingWindow::size() const {
   return all;
 }
 
-template <typename Visitor>
-void TimingWindow::visit(bool of_turns, Visitor visitor) const {
+template <typename Entry, typename EntryOf>
+TimingWindow::Entries<Entry> TimingWindow::collect(bool of_turns, EntryOf entry_of) const {
+  Entries<Entry> entries;
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     if (is_of_turn(static_cast<MotionChange>(i)) != of_turns) continue;
-    for (std::size_t k = 0; k < kinds_[i].size(); ++k) visitor(kinds_[i].last[k]);
+    for (std::size_t k = 0; k < kinds_[i].size(); ++k)
+      entries.all[entries.count++] = entry_of(kinds_[i].last[k]);
   }
+  return entries;
 }
 
-/// Squared error with the common factor that fits best, as in odometry_timing().
 double TimingWindow::error_at(std::size_t delay, bool of_turns) const {
-  constexpr int kReweighings = 3;
-  double factor = 1.0;
-  double error = 0.0;
-  for (int round = 0; round < kReweighings; ++round) {
-    double weighted = 1.0 / (kFactorPrior * kFactorPrior);
-    double information = weighted;
-    error = 0.0;
-    visit(of_turns, [&](const TimedQuantity& quantity) {
-      const double by_odometry = quantity.by_odometry[delay];
-      const double difference = (quantity.by_scans - factor * by_odometry) / quantity.sigma;
-      error += std::min(difference * difference, kWorstSquared);
-      if (difference * difference > kWorstSquared) return;
-      weighted += weight_of(quantity) * by_odometry * quantity.by_scans;
-      information += weight_of(quantity) * by_odometry * by_odometry;
-    });
-    factor = weighted / information;
-  }
-  return error;
+  return error_with_best_factor(
+      collect<TwiceMeasured>(
+          of_turns,
+          [&](const TimedQuantity& quantity) {
+            return TwiceMeasured{quantity.by_scans, quantity.sigma, quantity.by_odometry[delay]};
+          })
+          .used(),
+      kFactorSigma);
 }
 
-/// About the delay [1/s^2], beyond what a common factor explains, as in odometry_timing().
 double TimingWindow::information_at(std::size_t delay, bool of_turns) const {
-  double by_delay = 0.0;
-  double by_both = 0.0;
-  double by_factor = 1.0 / (kFactorPrior * kFactorPrior);
-  visit(of_turns, [&](const TimedQuantity& quantity) {
-    const double before = quantity.by_odometry[delay - kBendOver];
-    const double after = quantity.by_odometry[delay + kBendOver];
-    const double change =
-        (after - before) / (2.0 * static_cast<double>(kBendOver) * TimingDelays::kStep_s);
-    const double middle = 0.5 * (after + before);
-    by_delay += weight_of(quantity) * change * change;
-    by_both += weight_of(quantity) * change * middle;
-    by_factor += weight_of(quantity) * middle * middle;
-  });
-  return by_delay - by_both * by_both / by_factor;
+  constexpr double kApart_s = 2.0 * static_cast<double>(kBendOver) * TimingDelays::kStep_s;
+  return information_about_delay(
+      collect<DelayedQuantity>(of_turns,
+                               [&](const TimedQuantity& quantity) {
+                                 const double before = quantity.by_odometry[delay - kBendOver];
+                                 const double after = quantity.by_odometry[delay + kBendOver];
+                                 return DelayedQuantity{0.5 * (after + before),
+                                                        (after - before) / kApart_s,
+                                                        quantity.sigma};
+                               })
+          .used(),
+      kFactorSigma);
 }
 
 std::optional<TimingEvidence> TimingWindow::evidence() const {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/matching/odometry_timing.hpp"
@@ -69,10 +70,19 @@ class TimingWindow {
     std::size_t size() const { return count < kMostOfAKind ? count : kMostOfAKind; }
   };
 
+  /// One of each quantity, without memory of its own.
+  template <typename Entry>
+  struct Entries {
+    std::array<Entry, kMotionChanges * kMostOfAKind> all;
+    std::size_t count = 0;
+
+    std::span<const Entry> used() const { return {all.data(), count}; }
+  };
+
   double error_at(std::size_t delay, bool of_turns) const;
   double information_at(std::size_t delay, bool of_turns) const;
-  template <typename Visitor>
-  void visit(bool of_turns, Visitor visitor) const;
+  template <typename Entry, typename EntryOf>
+  Entries<Entry> collect(bool of_turns, EntryOf entry_of) const;
 
   std::vector<Kind> kinds_ = std::vector<Kind>(kMotionChanges);
 };

@@ -75,9 +75,14 @@ Log log_with(double late_s, double way_factor = 1.0, double drift = 0.0, int sca
   return log;
 }
 
+LogToTime to_time(const Log& log, const std::vector<ScanPair>& pairs, double around_s = 0.0) {
+  return {pairs, kForward, 1.0, log.scan_times_s, log.odometry, around_s};
+}
+
 std::optional<OdometryTiming> timing_of(const Log& log, double around_s = 0.0) {
-  return odometry_timing(log.pairs.pairs(), kForward, 1.0, log.scan_times_s, log.odometry,
-                         around_s);
+  const std::vector<ScanPair> pairs = log.pairs.pairs();
+  const LogToTime timed = to_time(log, pairs, around_s);
+  return odometry_timing(motions_by_scans(timed), timed);
 }
 
 TEST(OdometryTiming, IsFoundToSomeMilliseconds) {
@@ -103,7 +108,9 @@ TEST(OdometryTiming, IsNotMovedByWheelsThatCountTooMuch) {
 }
 
 std::optional<OdometryDrift> drift_of(const Log& log) {
-  return odometry_drift(log.pairs.pairs(), kForward, 1.0, log.scan_times_s, log.odometry, 0.0);
+  const std::vector<ScanPair> pairs = log.pairs.pairs();
+  const LogToTime timed = to_time(log, pairs);
+  return odometry_drift(motions_by_scans(timed), timed);
 }
 
 TEST(OdometryDrift, IsFoundOfClocksThatDriftApart) {
