@@ -193,7 +193,15 @@ geometry::Pose2 RunRecord::map_from_submap(const flow::Submap& submap) const {
                                            : correction_.map_from_odom * submap.odom_from_submap;
 }
 
-geometry::Pose2 RunRecord::corrected(const LocalizedPose& pose) const {
+/// Poses while the vehicle was lost count from the submap that began when it was not found: by then
+/// it was no longer where the one before lies.
+geometry::Pose2 RunRecord::corrected(std::int64_t stamp_ns, const LocalizedPose& pose) const {
+  const auto next = submaps_.upper_bound(pose.submap_id);
+  if (next != submaps_.end() && next->second.first_stamp_ns <= stamp_ns) {
+    const flow::Submap& submap = next->second;
+    return map_from_submap(submap) * geometry::inverse(submap.odom_from_submap) *
+           pose.odom_from_base.pose;
+  }
   const auto known = corrected_submaps_.find(pose.submap_id);
   if (known != corrected_submaps_.end()) return known->second * pose.submap_from_base;
   return correction_.map_from_odom * pose.odom_from_base.pose;
@@ -209,7 +217,7 @@ std::vector<StampedPose> RunRecord::online_trajectory() const {
 std::vector<StampedPose> RunRecord::corrected_trajectory() const {
   std::map<std::int64_t, geometry::Pose2> poses;
   for (const auto& [stamp_ns, pose] : poses_)
-    poses.emplace_hint(poses.end(), stamp_ns, corrected(pose));
+    poses.emplace_hint(poses.end(), stamp_ns, corrected(stamp_ns, pose));
   return one_pose_a_scan(poses);
 }
 
@@ -217,7 +225,7 @@ geometry::Pose2 RunRecord::corrected_from_online(std::int64_t stamp_ns) const {
   if (poses_.empty()) return geometry::Pose2::identity();
   auto near = poses_.lower_bound(stamp_ns);
   if (near == poses_.end()) --near;
-  return corrected(near->second) * geometry::inverse(near->second.map_from_base);
+  return corrected(near->first, near->second) * geometry::inverse(near->second.map_from_base);
 }
 
 std::vector<StampedPose> RunRecord::one_pose_a_scan(

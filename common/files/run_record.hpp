@@ -134,7 +134,7 @@ class RunRecord {
 
   using ScanName = std::pair<std::int64_t, std::string>;  ///< Stamp and scanner.
 
-  geometry::Pose2 corrected(const LocalizedPose& pose) const;
+  geometry::Pose2 corrected(std::int64_t stamp_ns, const LocalizedPose& pose) const;
   std::vector<StampedPose> one_pose_a_scan(
       const std::map<std::int64_t, geometry::Pose2>& poses_by_stamp) const;
 

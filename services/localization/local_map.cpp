@@ -61,7 +61,7 @@ void LocalMap::prepare(const Vector2& origin_m, const std::vector<grids::Ray>& r
 
 void LocalMap::integrate(std::int64_t stamp_ns, const Vector2& origin_m,
                          const std::vector<grids::Ray>& rays, double beam_step_rad) {
-  if (progress_.scans == 0) progress_.first_stamp_ns = stamp_ns;
+  if (progress_.first_stamp_ns == kNotBegun) progress_.first_stamp_ns = stamp_ns;
   odometer_.count(origin_m);
   progress_.last_stamp_ns = stamp_ns;
   ++progress_.scans;
@@ -209,15 +209,17 @@ void LocalMap::begin_next(const Vector2& centre_in_odom_m) {
   inherited_ = std::make_shared<const Inherited>(held());
   odom_from_submap_ = pose_of_window(evidence().window());
   ++submap_id_.value;
+  progress_.first_stamp_ns = kNotBegun;
   progress_.scans = 0;
 }
 
-void LocalMap::begin_astray(const Vector2& centre_in_odom_m) {
+void LocalMap::begin_astray(const Vector2& centre_in_odom_m, std::int64_t since_ns) {
   const flow::SubmapId next{submap_id_.value + (has_echoes() ? 1 : 0)};
   const double way_m = odometer_.way_m;
   *this = LocalMap(config_, centre_in_odom_m, evidence_.help());
   submap_id_ = next;
   odometer_.way_m = way_m;
+  progress_.first_stamp_ns = since_ns;
 }
 
 }  // namespace slammot::localization

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -35,9 +36,10 @@ struct LocalMapConfig {
 /// 2004, sections 3.4 and 6.3.
 class LocalMap {
   struct Inherited;
+  static constexpr std::int64_t kNotBegun = std::numeric_limits<std::int64_t>::min();
   /// Scans of the submap in progress.
   struct Progress {
-    std::int64_t first_stamp_ns = 0;
+    std::int64_t first_stamp_ns = kNotBegun;
     std::int64_t last_stamp_ns = 0;
     std::uint32_t scans = 0;
   };
@@ -101,8 +103,9 @@ class LocalMap {
   void begin_next(const geometry::Vector2& centre_in_odom_m);
 
   /// Begins the next submap with nothing: where it lies to what was seen before is not known. One
-  /// that has seen nothing itself becomes it.
-  void begin_astray(const geometry::Vector2& centre_in_odom_m);
+  /// that has seen nothing itself becomes it. Scans since since_ns are its own, though they are not
+  /// in the map.
+  void begin_astray(const geometry::Vector2& centre_in_odom_m, std::int64_t since_ns);
 
   /// Everything from which restored() makes a map that goes on as if nothing had happened. It does
   /// not change with the map, so that another thread may write it.

@@ -16,7 +16,8 @@ constexpr double kMostContradictedWhenSure = 0.8;  // Lost, too, where the predi
 constexpr int kPatientScans = 6;  // that need not fit, however long they take;
 constexpr int kAstrayScans = 16;  // so many in vain before a new map begins
 constexpr double kSeenThroughWalls_share = 0.1;
-constexpr double kChanged_share = 0.5;  // of what was explained one scan before
+constexpr double kElsewhere_share = 0.25;  // of the usual fit
+constexpr double kChanged_share = 0.5;     // of what was explained one scan before
 
 bool is_same_view(const geometry::Pose2& before_from_now) {
   constexpr double kSameView_m = 1.0;
@@ -29,7 +30,9 @@ bool is_same_view(const geometry::Pose2& before_from_now) {
 
 LocalizationMonitor::Verdict LocalizationMonitor::judge(const MatchToJudge& judged) {
   state_.contradicts_map = false;
-  const bool is_contradicting = is_contradicted(judged);
+  bool is_contradicting = is_contradicted(judged);
+  state_.begins_elsewhere = config_.recovery.recovers && leaps_elsewhere(judged);
+  if (state_.begins_elsewhere) is_contradicting = state_.everything_changed = true;
   if (!is_contradicting && !judged.match.is_lost) return Verdict::kFits;
   if (!config_.recovery.recovers) return Verdict::kDoesNotFit;
   if (!state_.lost_since_ns) {
@@ -42,6 +45,14 @@ LocalizationMonitor::Verdict LocalizationMonitor::judge(const MatchToJudge& judg
   if (trusts_prediction(judged.step)) return Verdict::kDoesNotFit;
   ++state_.lost_scans;
   return Verdict::kLost;
+}
+
+bool LocalizationMonitor::leaps_elsewhere(const MatchToJudge& judged) const {
+  if (!judged.step.have_wheels_leapt) return false;
+  const MapAgreement found = agreement(judged.points, judged.match.odom_from_base.pose,
+                                       judged.map.evidence(), config_.map);
+  return judged.match.matched_share - found.contradicting_share() <
+         kElsewhere_share * judged.usual_share;
 }
 
 /// Traffic on all sides hides the map for as long as it likes: what drives and was not seen to be

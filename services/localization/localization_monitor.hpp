@@ -15,7 +15,8 @@ namespace slammot::localization {
 /// A match with all that it is judged by.
 struct MatchToJudge {
   const ScanMatch& match;
-  const Step& step;  ///< Its prediction was the prior.
+  const Step& step;    ///< Its prediction was the prior.
+  double usual_share;  ///< Of points that match.
   const ScanPoints& points;
   const LocalMap& map;
 };
@@ -45,6 +46,7 @@ class LocalizationMonitor {
     std::optional<double> explained_before = 0.0;  ///< Share of the last scan's points that the map
                                                    ///< explained; none: not asked.
     bool everything_changed = false;               ///< From one scan to the next, when it was lost.
+    bool begins_elsewhere = false;                 ///< At the scan at hand. Not in checkpoints.
   };
 
   explicit LocalizationMonitor(const LocalizerConfig& config) : config_(config) {}
@@ -55,12 +57,18 @@ class LocalizationMonitor {
   /// a wrong place a scan or two may fit.
   bool confirm();
 
+  /// Whether wheels have leapt and the scan does not fit where the vehicle was: a drive that begins
+  /// anew, elsewhere, in the same log. Where wheels alone have leapt the scan fits as usual.
+  bool begins_elsewhere() const { return state_.begins_elsewhere; }
+
   /// Whether the pose was searched for in vain for so long that a new map is to begin.
   bool has_gone_astray(std::int64_t stamp_ns) const;
 
   /// A new map begins: what did not fit was the old one.
   void begin_map();
 
+  /// Stamp of the first scan that did not fit; none: the last one did.
+  std::optional<std::int64_t> lost_since_ns() const { return state_.lost_since_ns; }
   bool is_lost() const { return state_.lost_scans > 0; }
   int lost_scans() const { return state_.lost_scans; }
   PoseTrust trust() const {
@@ -76,6 +84,7 @@ class LocalizationMonitor {
   bool is_contradicted(const MatchToJudge& judged);
   void compare_with_scan_before(const MatchToJudge& judged, double explained);
   bool contradicts_too_much(const MatchToJudge& judged, double explained) const;
+  bool leaps_elsewhere(const MatchToJudge& judged) const;
   bool trusts_prediction(const Step& step) const;
   bool may_be_elsewhere(const Step& step) const {
     return !step.has_wheels() || config_.odometry.may_be_picked_up;

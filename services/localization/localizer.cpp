@@ -122,7 +122,7 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   Step step = prediction_.predict(scan.stamp_ns);
   count(step, counters_);
   take_points(scan, step);
-  const std::optional<ExplainedStep> explained = explain(scan, step);
+  const std::optional<ExplainedStep> explained = explain_or_doubt(scan, step);
   if (explained) step = explained->step;
   const ScanMatch found =
       match_or_relocalize(scan, step, explained ? &explained->registered : nullptr);
@@ -135,7 +135,8 @@ bool Localizer::place(const sensing::LaserScan& scan) {
   sweep_.observe(scan, step, points_, found, submaps_.map().surfels());
   submaps_.travel(matched_step(step, found));
   if (found.is_believed && !found.is_lost) compare_odometry(scan, step, found);
-  if (monitor_.has_gone_astray(scan.stamp_ns)) begin_astray_map();
+  if ((found.is_lost && monitor_.begins_elsewhere()) || monitor_.has_gone_astray(scan.stamp_ns))
+    begin_astray_map(*monitor_.lost_since_ns());
   return found.is_believed && !found.is_lost && monitor_.trust() == PoseTrust::kConfirmed;
 }
 
@@ -149,40 +150,13 @@ void Localizer::compare_odometry(const sensing::LaserScan& scan, const Step& ste
                  prediction_.compare(*comparison));
 }
 
-/// The points of the scan, without the motion of the step.
-void Localizer::take_points(const sensing::LaserScan& scan, const Step& step) {
-  points_.deskew(sweep_.corrected(scan), step.speed_mps, step.yaw_rate_radps);
-  points_.select(scan, step.after.odom_from_base, expected_.masks_at(scan.stamp_ns));
-}
-
-/// How the step came about, where odometry predicts it and may be wrong.
-std::optional<ExplainedStep> Localizer::explain(const sensing::LaserScan& scan,
-                                                const Step& by_wheels) {
-  const bool may_be_judged = config_.belief.enabled &&
-                             (by_wheels.is_by_wheels() || by_wheels.source == StepSource::kReach) &&
-                             by_wheels.duration_s > 0.0 && matcher_.can_match(points_.matched());
-  if (!may_be_judged) return std::nullopt;
-  const auto take = [&](const Step& step) { take_points(scan, step); };
-  ExplainedStep explained =
-      mixture_.explain({prediction_.explanations(by_wheels), prediction_.weights(),
-                        prediction_.state().belief.usual_share, prediction_.state().belief.steps,
-                        points_, submaps_.map(), take},
-                       matcher_);
-  prediction_.weigh(explained.weights);
-  counters_.searches += explained.searches;
-  if (explained.step.explanation == sensing::StepExplanation::kRoughWheels)
-    ++counters_.rough_odometry;
-  if (by_wheels.is_by_wheels() && explained.step.explanation == sensing::StepExplanation::kOther)
-    ++counters_.disbelieved_odometry;
-  return explained;
-}
-
 ScanMatch Localizer::match_or_relocalize(const sensing::LaserScan& scan, const Step& step,
                                          const matching::PointToLineResult* registered) {
   ScanMatch found = matcher_.match(
       {points_.matched(), submaps_.map().surfels(), step, scan.sequence, registered});
   count(found, counters_);
-  const auto verdict = monitor_.judge({found, step, points_, submaps_.map()});
+  const auto verdict = monitor_.judge(
+      {found, step, prediction_.state().belief.usual_share, points_, submaps_.map()});
   found.is_lost = verdict != LocalizationMonitor::Verdict::kFits;
   if (verdict == LocalizationMonitor::Verdict::kLost) found = relocalize(step).value_or(found);
   if (found.is_believed && !found.is_lost && monitor_.confirm())
@@ -201,9 +175,9 @@ std::optional<ScanMatch> Localizer::relocalize(const Step& step) {
 
 /// Nothing that was seen before is of use here: the map begins with this scan, and the pose against
 /// it is exact.
-void Localizer::begin_astray_map() {
+void Localizer::begin_astray_map(std::int64_t since_ns) {
   ++counters_.astray;
-  counters_.submaps += submaps_.begin_astray(odom_from_base());
+  counters_.submaps += submaps_.begin_astray(odom_from_base(), since_ns);
   prediction_.begin_map_here();
   monitor_.begin_map();
   count(integration_.drop_doubted(), counters_);
@@ -218,23 +192,22 @@ flow::LocalizedScan Localizer::describe_and_remember(const sensing::LaserScan& s
                                                      const EstimateAtScan& now,
                                                      MapAdmission admission,
                                                      flow::LocalizedScan workspace) {
-  const geometry::UncertainPose2 published = covariance_.published(now.estimate);
-  const geometry::UncertainPose2 within_local_map{
-      published.pose, covariance_.local_variance_share() * published.covariance};
-  flow::LocalizedScan localized = description_.describe({.scan = scan,
-                                                         .points = points_,
-                                                         .map = submaps_.map(),
-                                                         .odom_from_base = within_local_map,
-                                                         .map_from_odom = submaps_.map_from_odom(),
-                                                         .speed_mps = now.speed_mps,
-                                                         .yaw_rate_radps = now.yaw_rate_radps,
-                                                         .sweep_s = sweep_.sweep_s(scan)},
-                                                        std::move(workspace));
+  const PublishedPose published = covariance_.published(now.estimate, monitor_.is_lost());
+  flow::LocalizedScan localized =
+      description_.describe({.scan = scan,
+                             .points = points_,
+                             .map = submaps_.map(),
+                             .odom_from_base = published.within_local_map(),
+                             .map_from_odom = submaps_.map_from_odom(),
+                             .speed_mps = now.speed_mps,
+                             .yaw_rate_radps = now.yaw_rate_radps,
+                             .sweep_s = sweep_.sweep_s(scan)},
+                            std::move(workspace));
   integration_.remember({scan, localized, points_.all_in_base_m(), description_.beams_in_odom(),
                          points_.companion_beams()},
                         admission, submaps_.map());
-  localized.odom_from_base = published;
-  localized.local_variance_share = covariance_.local_variance_share();
+  localized.odom_from_base = published.odom_from_base;
+  localized.local_variance_share = published.local_variance_share;
   return localized;
 }
 

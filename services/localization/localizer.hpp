@@ -171,11 +171,14 @@ class Localizer final : public stages::LocalizationStage {
   void watch_lateness(const sensing::LaserScan& scan);
   void watch_factors(const sensing::LaserScan& scan);
   void take_points(const sensing::LaserScan& scan, const Step& step);
+  double fit_of(const ExplainedStep& explained) const;
+  std::optional<ExplainedStep> explain_or_doubt(const sensing::LaserScan& scan,
+                                                const Step& by_wheels);
   std::optional<ExplainedStep> explain(const sensing::LaserScan& scan, const Step& by_wheels);
   ScanMatch match_or_relocalize(const sensing::LaserScan& scan, const Step& step,
                                 const matching::PointToLineResult* registered);
   std::optional<ScanMatch> relocalize(const Step& step);
-  void begin_astray_map();
+  void begin_astray_map(std::int64_t since_ns);
   bool can_be_placed_again(const sensing::LaserScan& scan,
                            const std::vector<flow::PointLabel>& labels) const;
   EstimateAtScan estimate_at_last_scan() const;

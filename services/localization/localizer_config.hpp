@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include "common/matching/correlative.hpp"
 #include "common/matching/point_to_line.hpp"
 #include "common/sensing/motion_model.hpp"
@@ -72,6 +74,12 @@ struct RecoveryConfig {
                                  ///< searched for.
   double astray_sigma_m = 50.0;  ///< One sigma of the tie between two maps where the vehicle lost
                                  ///< its way.
+
+  /// Covariance of a pose of which next to nothing is known.
+  geometry::Matrix3 anywhere() const {
+    const double sigma_m2 = astray_sigma_m * astray_sigma_m;
+    return Eigen::Vector3d(sigma_m2, sigma_m2, std::numbers::pi * std::numbers::pi).asDiagonal();
+  }
 };
 
 /// Errors of published poses and of the constraints between submaps.

@@ -77,14 +77,16 @@ void OdometryPrediction::begin(std::int64_t stamp_ns) {
 /// twice as fast as usual.
 bool OdometryPrediction::is_impossible(const Pose2& by_wheels, double duration_s) const {
   constexpr double kFasterInGap = 2.0;
-  const sensing::OdometryBelief& belief = state_.belief;
-  const double usual_steps =
-      config_.odometry.time_is_known ? duration_s / belief.usual_step_s : 1.0;
   const double farthest_m =
-      kFarStep_m + belief.usual_drive_m * std::max(kFarStepShare, kFasterInGap * usual_steps);
+      kFarStep_m + state_.belief.usual_drive_m *
+                       std::max(kFarStepShare, kFasterInGap * usual_steps_in(duration_s));
   const double way_m = std::hypot(by_wheels.x_m, by_wheels.y_m);
   return way_m > farthest_m ||
          (config_.odometry.time_is_known && way_m > config_.odometry.fastest_mps * duration_s);
+}
+
+double OdometryPrediction::usual_steps_in(double duration_s) const {
+  return config_.odometry.time_is_known ? duration_s / state_.belief.usual_step_s : 1.0;
 }
 
 /// Wheels that go on saying what cannot be are right, and the velocity is wrong: only a single step
@@ -234,11 +236,29 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   const bool is_jump = config_.odometry.time_is_known && by_wheels && !cannot_be &&
                        !step.wheels_begin && is_doubtful(*by_wheels, step.duration_s);
   step.has_doubted_wheels = cannot_be || is_jump;
+  step.have_wheels_leapt = cannot_be;
   if (state_.belief.is_disbelieved && by_wheels) go_on_without_wheels(step);
   else if (by_wheels && !step.has_doubted_wheels) follow_wheels(*by_wheels, step);
   else
     go_on_at_velocity(is_jump ? doubted_velocity(*by_wheels, step.duration_s) : state_.estimate,
                       step);
+  return with_velocity(step, *state_.last);
+}
+
+std::optional<Step> OdometryPrediction::with_doubted_wheels(const Step& by_wheels) const {
+  constexpr double kUnusual = 3.0;
+  constexpr double kUnusual_m = 0.5;
+  const double usual_m =
+      state_.belief.usual_drive_m * std::max(1.0, usual_steps_in(by_wheels.duration_s));
+  const bool is_unusual =
+      by_wheels.is_by_wheels() &&
+      by_wheels.uncorrected_by_wheels.translation_m().norm() > kUnusual * usual_m + kUnusual_m;
+  if (!is_unusual || has_velocity(by_wheels, config_)) return std::nullopt;
+  Step step = by_wheels;
+  step.has_doubted_wheels = true;
+  step.is_standing = false;
+  step.stood_s = 0.0;
+  go_on_at_velocity(state_.estimate, step);
   return with_velocity(step, *state_.last);
 }
 

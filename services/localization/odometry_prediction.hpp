@@ -45,7 +45,8 @@ struct Step {
   double yaw_rate_radps = 0.0;
   double stood_s = 0.0;             ///< How long wheels have reported no motion;
   bool is_standing = false;         ///< long enough for the vehicle to stand.
-  bool has_doubted_wheels = false;  ///< They reported a motion that the vehicle cannot have made.
+  bool has_doubted_wheels = false;  ///< They reported a motion that the vehicle cannot have made,
+  bool have_wheels_leapt = false;   ///< and farther than it can drive.
   bool is_gap = false;              ///< Longer than longest_step_s.
   bool last_was_sampled = false;    ///< The last match left some direction to the prediction.
   double usual_duration_s = 0.1;    ///< Of the steps before.
@@ -157,6 +158,10 @@ class OdometryPrediction {
   /// The step from the last scan to the stamp, not before it. Changes nothing.
   Step predict(std::int64_t stamp_ns) const;
 
+  /// A step as it is predicted where wheels are doubted, for one by wheels that is far longer than
+  /// usual though not impossible; none for any other, or where a velocity predicts.
+  std::optional<Step> with_doubted_wheels(const Step& by_wheels) const;
+
   /// All explanations of a step that odometry predicts, that one first: see
   /// sensing::StepExplanation. Of one that may lead anywhere within reach, that and the steps that
   /// are like those before. Of any other step only it.
@@ -223,6 +228,7 @@ class OdometryPrediction {
   bool tells_of_stamps(std::int64_t stamp_ns) const;
   bool is_impossible(const geometry::Pose2& by_wheels, double duration_s) const;
   bool is_doubtful(const geometry::Pose2& by_wheels, double duration_s) const;
+  double usual_steps_in(double duration_s) const;
   sensing::MotionEstimate doubted_velocity(const geometry::Pose2& by_wheels,
                                            double duration_s) const;
   sensing::MotionEstimate moved_by_wheels(const geometry::Pose2& by_wheels, std::int64_t stamp_ns,

@@ -33,17 +33,24 @@ void PublishedCovariance::observe(const Step& step, const ScanMatch& match) {
       std::exp(-step.duration_s / kComparedOver_s) * state_.map_change.way_m + moved_m;
 }
 
-geometry::UncertainPose2 PublishedCovariance::published(
-    const sensing::MotionEstimate& estimate) const {
+PublishedPose PublishedCovariance::published(const sensing::MotionEstimate& estimate,
+                                             bool is_lost) const {
   const sensing::VarianceFactors factors =
       sensing::published(state_.factors, config_.errors.pose_errors, state_.map_change);
   geometry::UncertainPose2 pose{estimate.odom_from_base,
                                 sensing::scaled(estimate.uncertain_pose(), factors)};
-  pose.covariance /= local_variance_share();
-  return pose;
+  double share = share_with_wheels();
+  pose.covariance /= share;
+  if (is_lost) {
+    const geometry::Matrix3 anywhere = config_.recovery.anywhere();
+    const double known_m2 = pose.covariance.topLeftCorner<2, 2>().trace();
+    share *= known_m2 / (known_m2 + anywhere.topLeftCorner<2, 2>().trace());
+    pose.covariance += anywhere;
+  }
+  return {pose, share};
 }
 
-double PublishedCovariance::local_variance_share() const {
+double PublishedCovariance::share_with_wheels() const {
   return 1.0 / (1.0 + (config_.errors.variance_by_scans_alone - 1.0) * state_.by_scans_alone);
 }
 

@@ -7,6 +7,16 @@
 
 namespace slammot::localization {
 
+struct PublishedPose {
+  geometry::UncertainPose2 odom_from_base;
+  double local_variance_share = 1.0;  ///< Of the covariance, what the pose may be off within the
+                                      ///< local map.
+
+  geometry::UncertainPose2 within_local_map() const {
+    return {odom_from_base.pose, local_variance_share * odom_from_base.covariance};
+  }
+};
+
 /// Fits the covariance that is published to the surprises that matches show. It changes no
 /// estimate.
 class PublishedCovariance {
@@ -24,17 +34,16 @@ class PublishedCovariance {
   void observe(const Step& step, const ScanMatch& match);
 
   /// The pose of an estimate with the covariance to publish; 3x3 over (x [m], y [m], heading [rad])
-  /// in odom.
-  geometry::UncertainPose2 published(const sensing::MotionEstimate& estimate) const;
-
-  /// Of what is published, what the pose may be off within the local map. Where scans alone tell,
-  /// map and pose drift together.
-  double local_variance_share() const;
+  /// in odom. Where scans alone tell, map and pose drift together. A vehicle that is lost may be
+  /// anywhere; what it sees now it still sees at places known to each other.
+  PublishedPose published(const sensing::MotionEstimate& estimate, bool is_lost) const;
 
   const State& state() const { return state_; }
   void set_state(const State& state) { state_ = state; }
 
  private:
+  double share_with_wheels() const;
+
   LocalizerConfig config_;
   State state_;
 };

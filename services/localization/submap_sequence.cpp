@@ -1,7 +1,6 @@
 #include "services/localization/submap_sequence.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "services/localization/submap_saliency.hpp"
@@ -18,16 +17,10 @@ constexpr std::int32_t kShortSubmaps = 4;  // loop closing needs two or three th
 
 }  // namespace
 
-UncertainPose2 SubmapSequence::anywhere_about(const Pose2& pose) const {
-  const double sigma_m2 = config_.recovery.astray_sigma_m * config_.recovery.astray_sigma_m;
-  return {pose,
-          Eigen::Vector3d(sigma_m2, sigma_m2, std::numbers::pi * std::numbers::pi).asDiagonal()};
-}
-
 void SubmapSequence::go_on_after(const flow::CorrectedSubmap& last) {
   first_submap_ = {last.submap_id.value + 1};
   state_.map_from_odom = last.map_from_submap;
-  state_.previous_from_submap = anywhere_about(Pose2::identity());
+  state_.previous_from_submap = {Pose2::identity(), config_.recovery.anywhere()};
   state_.short_submaps_left = kShortSubmaps;
 }
 
@@ -64,11 +57,12 @@ bool SubmapSequence::begin_next_if_due(const Pose2& odom_from_base) {
   return ends_one;
 }
 
-bool SubmapSequence::begin_astray(const Pose2& odom_from_base) {
+bool SubmapSequence::begin_astray(const Pose2& odom_from_base, std::int64_t since_ns) {
   const Pose2 odom_from_previous = map_.odom_from_submap();
   const bool ends_one = finish(odom_from_base);
-  map_.begin_astray(odom_from_base.translation_m());
-  begin_with(anywhere_about(geometry::inverse(odom_from_previous) * map_.odom_from_submap()));
+  map_.begin_astray(odom_from_base.translation_m(), since_ns);
+  begin_with({geometry::inverse(odom_from_previous) * map_.odom_from_submap(),
+              config_.recovery.anywhere()});
   state_.short_submaps_left = kShortSubmaps;
   return ends_one;
 }

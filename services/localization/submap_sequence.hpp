@@ -55,9 +55,9 @@ class SubmapSequence {
   /// Whether one was ended.
   bool begin_next_if_due(const geometry::Pose2& odom_from_base);
 
-  /// Begins an empty submap at the pose, tied to the one before by next to nothing. Whether one was
-  /// ended.
-  bool begin_astray(const geometry::Pose2& odom_from_base);
+  /// Begins an empty submap at the pose, tied to the one before by next to nothing. The vehicle has
+  /// not been in that one since since_ns. Whether one was ended.
+  bool begin_astray(const geometry::Pose2& odom_from_base, std::int64_t since_ns);
 
   /// Ends the submap in progress if it holds anything, as at the end of a drive. Whether it did.
   bool finish(const geometry::Pose2& odom_from_base);
@@ -86,7 +86,6 @@ class SubmapSequence {
 
  private:
   void end(const geometry::Pose2& odom_from_base);
-  geometry::UncertainPose2 anywhere_about(const geometry::Pose2& pose) const;
   void begin_with(const geometry::UncertainPose2& previous_from_submap);
 
   LocalizerConfig config_;

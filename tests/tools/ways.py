@@ -74,6 +74,7 @@ FURTHER = (
     Way("standing-wheels", "wheels stand for 1 s every 20 s", lambda drive, seed: alter.standing(drive, 1.0, 20.0), OF_ODOMETRY, takes_information=True),
     Way("held-1s", "odometry comes once a second", lambda drive, seed: alter.held(drive, 1.0), takes_information=True),
     Way("begun-anew", "odometry begins anew at zero six times", lambda drive, seed: alter.begun_anew(drive, 6)),
+    Way("halves-swapped", "two drives in one log: the second half, then the first, for which odometry begins anew", lambda drive, seed: alter.halves_swapped(drive), r"new part of the map"),
     Way("another-point", "odometry of a point 1 m ahead, unsaid", lambda drive, seed: alter.of_another_point(drive, 1.0, 0.0)),
     Way("turned-5", "scanner turned by 5 degrees, unsaid", lambda drive, seed: alter.scanner_turned(drive, 5.0), r"mounted turned"),
     Way("own-body", "a fifth of the beams sees the vehicle", lambda drive, seed: alter.own_body(drive, seed), r"vehicle itself"),

@@ -89,6 +89,25 @@ TEST(RunRecord, PlacesWhatLoopClosingNeverHeardOfByOdometry) {
               PoseNear(Pose2{5.0, 0.0, 0.0} * submap.odom_from_submap, 1e-12));
 }
 
+TEST(RunRecord, PlacesScansOfALostVehicleWithTheSubmapThatBeganThen) {
+  RunRecord record;
+  for (const std::int64_t stamp_ns : {100, 200, 300}) record.add_scan(stamp_ns);
+  record.add(localized(100, 1.0, 0));
+  record.add(localized(200, 2.0, 0));  // lost
+  record.add(localized(300, 12.0, 1));
+  flow::Submap begun_lost = testing::example_submap(1);
+  begun_lost.submap_id = {1};
+  begun_lost.first_stamp_ns = 200;
+  begun_lost.odom_from_submap = {10.0, 0.0, 0.0};
+  record.add(begun_lost);
+  record.add(
+      flow::GraphCorrection{1, {5.0, 0.0, 0.0}, {{{0}, {0.0, 1.0, 0.0}}, {{1}, {0.0, 7.0, 0.0}}}});
+  const auto trajectory = record.corrected_trajectory();
+  EXPECT_THAT(trajectory[0].map_from_base, PoseNear(Pose2{1.0, 1.0, 0.0}, 1e-12));
+  EXPECT_THAT(trajectory[1].map_from_base, PoseNear(Pose2{-8.0, 7.0, 0.0}, 1e-12));
+  EXPECT_THAT(trajectory[2].map_from_base, PoseNear(Pose2{2.0, 7.0, 0.0}, 1e-12));
+}
+
 TEST(RunRecord, IgnoresACorrectionOlderThanTheLast) {
   RunRecord record;
   record.add(flow::GraphCorrection{2, {}, {{{1}, {2.0, 0.0, 0.0}}}});

@@ -12,6 +12,7 @@ using slammot::testing::MappedWorld;
 using Verdict = LocalizationMonitor::Verdict;
 
 constexpr std::int64_t kPeriod_ns = 100'000'000;
+constexpr double kUsualShare = 0.9;
 const Pose2 kHere{};
 const Pose2 kElsewhere{2.5, 1.0, 0.6};
 
@@ -22,14 +23,15 @@ class LocalizationMonitorTest : public ::testing::Test {
       : monitor_(config) {}
 
   /// The next scan, made at the origin, is matched at a pose.
-  Verdict see(const ScanMatch& match, StepSource source) {
+  Verdict see(const ScanMatch& match, StepSource source, bool have_wheels_leapt = false) {
     Step step;
+    step.has_doubted_wheels = step.have_wheels_leapt = have_wheels_leapt;
     step.stamp_ns = stamp_ns_ += kPeriod_ns;
     step.duration_s = 0.1;
     step.source = source;
     step.after.covariance.setIdentity();
     step.after.covariance *= 1e-6;
-    return monitor_.judge({match, step, points_, room_.map()});
+    return monitor_.judge({match, step, kUsualShare, points_, room_.map()});
   }
   static ScanMatch believed_at(const Pose2& pose) {
     return {.odom_from_base = {pose, geometry::Matrix3::Identity()}, .is_believed = true};
@@ -97,6 +99,19 @@ TEST_F(LocalizationMonitorTest, GivesTheMapUpAfterASearchInVain) {
   EXPECT_FALSE(monitor_.is_lost());
   EXPECT_FALSE(
       monitor_.has_gone_astray(stamp_ns_ + static_cast<std::int64_t>(1.1 * given_up_s * 1e9)));
+}
+
+TEST_F(LocalizationMonitorTest, KnowsADriveThatBeginsElsewhereFromWheelsThatBeginAnew) {
+  ScanMatch match = believed_at(kHere);
+  match.matched_share = kUsualShare;
+  EXPECT_EQ(see(match, StepSource::kReach, true), Verdict::kFits);
+  EXPECT_FALSE(monitor_.begins_elsewhere()) << "the vehicle is where it was";
+  match = believed_at(kElsewhere);
+  match.matched_share = 0.5 * kUsualShare;
+  EXPECT_EQ(see(match, StepSource::kReach, true), Verdict::kLost);
+  EXPECT_TRUE(monitor_.begins_elsewhere());
+  see(match, StepSource::kReach);
+  EXPECT_FALSE(monitor_.begins_elsewhere()) << "told by the scan of the leap alone";
 }
 
 TEST_F(LocalizationMonitorTest, LooksWithSeveralScansBeforeItGivesTheMapUp) {

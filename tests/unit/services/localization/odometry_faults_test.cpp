@@ -219,6 +219,33 @@ TEST_P(OdometryFaultsOfRobots, DoNotMoveAVehicleThatStandsWhileItsWheelsTurn) {
                                                        // next scan
 }
 
+/// Farther than usual, and not so far that a robot could not have driven there.
+TEST(OdometryFaultsOfASlowScanner, DoNotCarryThePoseAwayWhereWheelsLeapSomeMetres) {
+  DriveSetup setup = robot_in_a_room();
+  setup.scan_period_s = 1.0;
+  const auto leap = during(15.5, 16.5, [](const Pose2& step, double) {
+    return Pose2{step.x_m - 6.5, step.y_m + 5.5, step.heading_rad + 2.0};
+  });
+  const DriveResult result = drive_with(setup, leap, 30);
+  expect_good(result);
+  EXPECT_EQ(result.counters.odometry_jumps, 1U);
+}
+
+/// Two drives in one log.
+TEST(OdometryFaultsOfASlowScanner, BeginAMapAtOnceWhereTheDriveGoesOnElsewhere) {
+  constexpr double kSecondDrive_s = 10.0;
+  DriveSetup setup = robot_outdoors();
+  setup.world_from_base_at = [first = setup.world_from_base_at](double time_s) {
+    return time_s < kSecondDrive_s ? first(time_s)
+                                   : Pose2{1.3, 0.4, 2.2} * geometry::inverse(first(0.0)) *
+                                         first(time_s - kSecondDrive_s);
+  };
+  const auto anew = during(kSecondDrive_s - 0.25, kSecondDrive_s + 0.25, [](const Pose2&, double) {
+    return Pose2{-60.0, 20.0, 1.0};
+  });
+  EXPECT_EQ(drive_with(setup, anew, kScans).counters.astray, 1U);
+}
+
 INSTANTIATE_TEST_SUITE_P(TwoScansASecond, OdometryFaultsOfRobots,
                          ::testing::Values(&robot_outdoors, &robot_in_a_room),
                          [](const auto& info) {

@@ -1,5 +1,7 @@
 #include "services/localization/published_covariance.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace slammot::localization {
@@ -28,7 +30,7 @@ double published_variance_m2(double surprise_m) {
   PublishedCovariance covariance{LocalizerConfig{}};
   const Step step = step_with_sigma(0.01);
   for (int scan = 0; scan < 50; ++scan) covariance.observe(step, match_at(surprise_m, 0.005));
-  return covariance.published(step.after).covariance(0, 0);
+  return covariance.published(step.after, false).odom_from_base.covariance(0, 0);
 }
 
 TEST(PublishedCovariance, GrowsWithTheSurprisesOfMatches) {
@@ -39,14 +41,14 @@ TEST(PublishedCovariance, KeepsThePoseOfTheEstimate) {
   PublishedCovariance covariance{LocalizerConfig{}};
   sensing::MotionEstimate estimate;
   estimate.odom_from_base = {1.0, 2.0, 0.5};
-  EXPECT_EQ(covariance.published(estimate).pose, estimate.odom_from_base);
+  EXPECT_EQ(covariance.published(estimate, false).odom_from_base.pose, estimate.odom_from_base);
 }
 
 TEST(PublishedCovariance, IsThatOfTheFilterWhereNothingWasMatched) {
   PublishedCovariance covariance{LocalizerConfig{}};
   const Step step = step_with_sigma(0.5);  // all of it grown in this step
   covariance.observe(step, {.odom_from_base = step.prior()});
-  EXPECT_NEAR(covariance.published(step.after).covariance(0, 0), 0.25, 1e-9);
+  EXPECT_NEAR(covariance.published(step.after, false).odom_from_base.covariance(0, 0), 0.25, 1e-9);
 }
 
 TEST(PublishedCovariance, IsLargerThanThatWithinTheLocalMapWhereScansAloneTell) {
@@ -60,10 +62,26 @@ TEST(PublishedCovariance, IsLargerThanThatWithinTheLocalMapWhereScansAloneTell) 
     with_wheels.observe(by_wheels, match_at(0.0, 0.005));
     without.observe(by_scans, match_at(0.0, 0.005));
   }
-  EXPECT_EQ(with_wheels.local_variance_share(), 1.0);
-  EXPECT_NEAR(without.local_variance_share(), 1.0 / config.errors.variance_by_scans_alone, 1e-3);
-  EXPECT_NEAR(without.published(by_scans.after).covariance(0, 0) * without.local_variance_share(),
-              with_wheels.published(by_wheels.after).covariance(0, 0), 1e-9);
+  const PublishedPose with = with_wheels.published(by_wheels.after, false);
+  const PublishedPose alone = without.published(by_scans.after, false);
+  EXPECT_EQ(with.local_variance_share, 1.0);
+  EXPECT_NEAR(alone.local_variance_share, 1.0 / config.errors.variance_by_scans_alone, 1e-3);
+  EXPECT_NEAR(alone.within_local_map().covariance(0, 0), with.within_local_map().covariance(0, 0),
+              1e-9);
+}
+
+TEST(PublishedCovariance, IsAnywhereOfALostVehicleButNotWithinTheLocalMap) {
+  const LocalizerConfig config;
+  const PublishedCovariance covariance{config};
+  const Step step = step_with_sigma(0.1);
+  const PublishedPose known = covariance.published(step.after, false);
+  const PublishedPose lost = covariance.published(step.after, true);
+  EXPECT_GT(std::sqrt(lost.odom_from_base.covariance(0, 0)), config.recovery.astray_sigma_m);
+  EXPECT_GT(std::sqrt(lost.odom_from_base.covariance(2, 2)), 3.0);
+  const auto position_m2 = [](const PublishedPose& pose) {
+    return pose.within_local_map().covariance.topLeftCorner<2, 2>().trace();
+  };
+  EXPECT_NEAR(position_m2(lost), position_m2(known), 1e-9);
 }
 
 TEST(PublishedCovariance, GoesOnFromAStateAsBefore) {
@@ -71,11 +89,11 @@ TEST(PublishedCovariance, GoesOnFromAStateAsBefore) {
   const Step step = step_with_sigma(0.01);
   covariance.observe(step, match_at(0.02, 0.005));
   const auto state = covariance.state();
-  const auto before = covariance.published(step.after).covariance;
+  const auto before = covariance.published(step.after, false).odom_from_base.covariance;
   covariance.observe(step, match_at(0.2, 0.005));
-  EXPECT_NE(covariance.published(step.after).covariance, before);
+  EXPECT_NE(covariance.published(step.after, false).odom_from_base.covariance, before);
   covariance.set_state(state);
-  EXPECT_EQ(covariance.published(step.after).covariance, before);
+  EXPECT_EQ(covariance.published(step.after, false).odom_from_base.covariance, before);
 }
 
 }  // namespace

@@ -91,14 +91,21 @@ TEST_F(SubmapSequenceTest, TiesASubmapLooselyAlongAMotionThatIsInDoubt) {
 
 TEST_F(SubmapSequenceTest, TiesAnAstraySubmapByNextToNothingAndMakesTheNextOnesShort) {
   see_something();
-  EXPECT_TRUE(submaps_.begin_astray(odom_from_base_));
+  const std::int64_t lost_since_ns = stamp_ns_;
+  stamp_ns_ += 10;
+  EXPECT_TRUE(submaps_.begin_astray(odom_from_base_, lost_since_ns));
   EXPECT_FALSE(submaps_.map().has_echoes());
   see_something();
   go(5.0);
   EXPECT_TRUE(submaps_.begin_next_if_due(odom_from_base_)) << "10 m in submaps of known place";
   submaps_.take_finished();
-  EXPECT_NEAR(std::sqrt(submaps_.take_finished()->previous_from_submap.covariance(0, 0)),
+  const auto astray = submaps_.take_finished();
+  EXPECT_NEAR(std::sqrt(astray->previous_from_submap.covariance(0, 0)),
               LocalizerConfig{}.recovery.astray_sigma_m, 1e-9);
+  EXPECT_EQ(astray->first_stamp_ns, lost_since_ns) << "the vehicle has been there since";
+  see_something();
+  submaps_.finish(odom_from_base_);
+  EXPECT_EQ(submaps_.take_finished()->first_stamp_ns, stamp_ns_);
 }
 
 TEST_F(SubmapSequenceTest, FinishesNothingThatIsEmptyOrFinished) {

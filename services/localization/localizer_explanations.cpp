@@ -1,0 +1,70 @@
+#include "services/localization/localizer.hpp"
+
+#include <algorithm>
+
+#include "services/localization/map_agreement.hpp"
+
+namespace slammot::localization {
+
+/// The points of the scan, without the motion of the step.
+void Localizer::take_points(const sensing::LaserScan& scan, const Step& step) {
+  points_.deskew(sweep_.corrected(scan), step.speed_mps, step.yaw_rate_radps);
+  points_.select(scan, step.after.odom_from_base, expected_.masks_at(scan.stamp_ns));
+}
+
+/// How the step came about, where odometry predicts it and may be wrong.
+std::optional<ExplainedStep> Localizer::explain(const sensing::LaserScan& scan,
+                                                const Step& by_wheels) {
+  const bool may_be_judged = config_.belief.enabled &&
+                             (by_wheels.is_by_wheels() || by_wheels.source == StepSource::kReach) &&
+                             by_wheels.duration_s > 0.0 && matcher_.can_match(points_.matched());
+  if (!may_be_judged) return std::nullopt;
+  const auto take = [&](const Step& step) { take_points(scan, step); };
+  ExplainedStep explained =
+      mixture_.explain({prediction_.explanations(by_wheels), prediction_.weights(),
+                        prediction_.state().belief.usual_share, prediction_.state().belief.steps,
+                        points_, submaps_.map(), take},
+                       matcher_);
+  prediction_.weigh(explained.weights);
+  counters_.searches += explained.searches;
+  if (explained.step.explanation == sensing::StepExplanation::kRoughWheels)
+    ++counters_.rough_odometry;
+  if (by_wheels.is_by_wheels() && explained.step.explanation == sensing::StepExplanation::kOther)
+    ++counters_.disbelieved_odometry;
+  return explained;
+}
+
+/// Share of the points that fit an explained step less that of those that contradict the map there.
+/// The points are those under it.
+double Localizer::fit_of(const ExplainedStep& explained) const {
+  return explained.registered.matched_share - agreement(points_,
+                                                        explained.registered.map_from_base.pose,
+                                                        submaps_.map().evidence(), config_.map)
+                                                  .contradicting_share();
+}
+
+/// Where odometry leads farther than usual and is not believed, it may have leapt while the vehicle
+/// went on as before: the place where it then is competes with those about where odometry leads.
+std::optional<ExplainedStep> Localizer::explain_or_doubt(const sensing::LaserScan& scan,
+                                                         const Step& by_wheels) {
+  constexpr double kFits = 0.5;  // of the usual share
+  std::optional<ExplainedStep> explained = explain(scan, by_wheels);
+  if (!explained) return explained;
+  const bool has_match = explained->registered.matched_share >= config_.trust.least_matched_share;
+  if (has_match && explained->step.explanation != sensing::StepExplanation::kOther)
+    return explained;
+  const std::optional<Step> doubted = prediction_.with_doubted_wheels(by_wheels);
+  if (!doubted) return explained;
+  const double least_fit = std::max(kFits * prediction_.state().belief.usual_share,
+                                    has_match ? fit_of(*explained) : 0.0);
+  take_points(scan, *doubted);
+  std::optional<ExplainedStep> stayed = explain(scan, *doubted);
+  if (stayed && fit_of(*stayed) > least_fit) {
+    ++counters_.odometry_jumps;
+    return stayed;
+  }
+  take_points(scan, explained->step);
+  return explained;
+}
+
+}  // namespace slammot::localization
