@@ -137,7 +137,8 @@ void treat_poor_odometry(const ScannerSurvey& scanner, const OdometryLines& line
   constexpr double kWindow_s = 0.5;
   constexpr double kNoise_m = 1.5e-3;  // wheels are below 0.3 mm
   constexpr double kMuchNoise_m = 8e-3;
-  constexpr double kRare_s = 0.5;  // twice what nine of ten samples come after
+  constexpr double kTurned_m = 1.0;  // how far ahead what turns counts as moved aside
+  constexpr double kRare_s = 0.5;    // twice what nine of ten samples come after
   const matching::LogCorrection& correction = plan.evidence.correction;
   const bool is_in_units = correction.way_unit_m == 1.0 && correction.heading_unit_rad == 1.0 &&
                            !correction.mirrors_position && !correction.mirrors_heading;
@@ -147,8 +148,10 @@ void treat_poor_odometry(const ScannerSurvey& scanner, const OdometryLines& line
   const double period_s =
       is_in_lines ? plan.figures.duration_s / static_cast<double>(lines.count()) : scan_period_s;
   const double along_m = sensing::forward_noise_m(odometry);
+  const double turned_m = kTurned_m * sensing::turn_noise_rad(odometry);
+  const double of_motion_m = std::max(along_m, turned_m);
   const double noise_m = std::max((is_in_lines ? lines.poses : scanner.poses).noise.mean_m(),
-                                  along_m > kMuchNoise_m ? along_m : 0.0);
+                                  of_motion_m > kMuchNoise_m ? of_motion_m : 0.0);
   const double held_s = static_cast<double>(plan.odometry_held_scans) * scan_period_s;
   const bool is_held = plan.odometry_held_scans > 0 && !is_in_lines;
   const bool is_noisy =

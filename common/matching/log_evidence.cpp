@@ -23,6 +23,8 @@ using std::numbers::pi;
 constexpr double kConsistent = 0.75;     // least length of a mean direction vector
 constexpr double kTurnedSeen_rad = 0.4;  // of a scanner: by single pairs; less needs all of them
 constexpr double kOtherSize = 0.15;      // of turns; less is learned during the drive
+constexpr double kMostly = 0.8;          // of the turns by odometry, to the side of those by scans;
+                                         // of fewer it is noise that scans say next to nothing of
 
 /// The pair's motion as its points say that are nearest to the surfaces of the first scan: better
 /// than a cell of the search.
@@ -113,7 +115,6 @@ double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams,
 void correct_signs(const OdometryCheck& odometry, double same_sign, double way_unit_m,
                    LogEvidence& evidence) {
   LogCorrection& correction = evidence.correction;
-  constexpr double kMostly = 0.8;
   const bool turns_agree = same_sign > kMostly;
   const bool turns_differ = same_sign < 1.0 - kMostly;
   if (odometry.positions_are_mirrored()) {
@@ -247,8 +248,10 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
   }
   evidence.way_scale = way_scale(straight_pairs);
   evidence.turn_scale = turn_scale_of_both(matched);
-  if (evidence.turn_scale > 0.0 && std::abs(evidence.turn_scale - 1.0) > kOtherSize)
-    correction.turn_factor = evidence.turn_scale;
+  if (evidence.turn_scale > 0.0 && std::abs(evidence.turn_scale - 1.0) > kOtherSize) {
+    if (same_sign_share(turning(matched)) > kMostly) correction.turn_factor = evidence.turn_scale;
+    else evidence.turn_scale = 0.0;
+  }
   return evidence;
 }
 

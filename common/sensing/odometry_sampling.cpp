@@ -43,27 +43,46 @@ double PoseNoise::mean_m() const {
   return steps_ < kFewestSteps ? 0.0 : changes_m_ / static_cast<double>(steps_);
 }
 
-double forward_noise_m(std::span<const Odometry> samples) {
+namespace {
+
+/// Median of how much a quantity of the steps differs from one to the next beyond a greatest
+/// acceleration.
+template <typename QuantityOf>
+double noise_of(std::span<const Odometry> samples, double most_acceleration,
+                QuantityOf quantity_of) {
   constexpr double kMoves_m = 5e-3;
-  constexpr double kAcceleration_mps2 = 5.0;
   constexpr std::size_t kFewestSteps = 50;
-  std::vector<double> changes_m;
-  double speed_before_mps = 0.0;
+  std::vector<double> changes;
+  double rate_before = 0.0;
   double duration_before_s = 0.0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double duration_s =
         1e-9 * static_cast<double>(samples[i].stamp_ns - samples[i - 1].stamp_ns);
     if (!(duration_s > 0.0)) continue;
-    const double way_m =
-        (geometry::inverse(samples[i - 1].wheel_from_base) * samples[i].wheel_from_base).x_m;
-    const double change_mps =
-        std::abs(way_m / duration_s - std::exchange(speed_before_mps, way_m / duration_s));
+    const geometry::Pose2 step =
+        geometry::inverse(samples[i - 1].wheel_from_base) * samples[i].wheel_from_base;
+    const double rate = quantity_of(step) / duration_s;
+    const double change = std::abs(rate - std::exchange(rate_before, rate));
     const double between_s = 0.5 * (duration_s + std::exchange(duration_before_s, duration_s));
-    if (i == 1 || std::abs(way_m) < kMoves_m) continue;
-    changes_m.push_back(duration_s * std::max(0.0, change_mps - kAcceleration_mps2 * between_s));
+    if (i == 1 || std::abs(step.x_m) < kMoves_m) continue;
+    changes.push_back(duration_s * std::max(0.0, change - most_acceleration * between_s));
   }
-  if (changes_m.size() < kFewestSteps) return 0.0;
-  return geometry::upper_median_in_place(changes_m);
+  if (changes.size() < kFewestSteps) return 0.0;
+  return geometry::upper_median_in_place(changes);
+}
+
+}  // namespace
+
+double forward_noise_m(std::span<const Odometry> samples) {
+  constexpr double kAcceleration_mps2 = 5.0;
+  return noise_of(samples, kAcceleration_mps2,
+                  [](const geometry::Pose2& step) { return step.x_m; });
+}
+
+double turn_noise_rad(std::span<const Odometry> samples) {
+  constexpr double kAcceleration_radps2 = 5.0;
+  return noise_of(samples, kAcceleration_radps2,
+                  [](const geometry::Pose2& step) { return step.heading_rad; });
 }
 
 }  // namespace slammot::sensing

@@ -48,4 +48,7 @@ class PoseNoise {
 /// the steps of a vehicle that moves; 0 of few. samples: in order of time.
 double forward_noise_m(std::span<const Odometry> samples);
 
+/// The same of turns: headings of a compass, not of wheels.
+double turn_noise_rad(std::span<const Odometry> samples);
+
 }  // namespace slammot::sensing

@@ -196,6 +196,25 @@ TEST(WeighLog, DoesNotTakeNoiseOfOdometryForTurnsOfAnotherSize) {
   EXPECT_NEAR(evidence.turn_scale, 1.0, 0.1);
 }
 
+/// A vehicle that hardly turns, with the headings of a compass.
+TEST(WeighLog, SaysNothingOfTurnsThatAreAllNoise) {
+  std::vector<ScanPair> pairs;
+  OdometryCheck check;
+  Pose2 before{2.0, -2.0, 0.3};
+  for (int i = 0; i < 40; ++i) {
+    const Pose2 now = before * Pose2{0.28, 0.0014, 0.01};
+    const double turn_rad = i % 5 < 3 ? 0.3 : -0.3;  // three of five to the true side
+    const Pose2 recorded{now.x_m, now.y_m, before.heading_rad + turn_rad};
+    check.add(recorded);
+    pairs.push_back({scan_at(before, pi), scan_at(now, pi), before, recorded});
+    before = now;
+  }
+  const LogEvidence evidence = weigh_log(
+      pairs, {-0.5 * pi, pi / static_cast<double>(kBeams - 1), 0.0, {0.0, 0.0}}, check, 1.0);
+  EXPECT_EQ(evidence.correction.turn_factor, 1.0);
+  EXPECT_EQ(evidence.turn_scale, 0.0);
+}
+
 TEST(WeighLog, FindsAScannerThatIsTurnedALittle) {
   EXPECT_NEAR(evidence_of({.looks_rad = 0.1}).correction.laser_turn_rad, 0.1, 0.02);
   EXPECT_EQ(evidence_of({.looks_rad = 0.005}).correction.laser_turn_rad, 0.0);

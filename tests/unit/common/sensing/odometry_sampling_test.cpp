@@ -68,6 +68,17 @@ TEST(ForwardNoise, IsThatOfPosesReadAtOtherTimesThanTheyAreStamped) {
   EXPECT_NEAR(forward_noise_m(car_with_jitter(0.02)), 0.06, 0.02);
 }
 
+TEST(TurnNoise, IsThatOfACompassAndNoneOfWheels) {
+  std::vector<Odometry> samples = car_with_jitter(0.0);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    samples[i].wheel_from_base.heading_rad = 0.8 * std::sin(0.027 * static_cast<double>(i));
+  EXPECT_EQ(turn_noise_rad(samples), 0.0);
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise_rad(0.0, 0.03);
+  for (Odometry& sample : samples) sample.wheel_from_base.heading_rad += noise_rad(random);
+  EXPECT_NEAR(turn_noise_rad(samples), 0.045, 0.01);
+}
+
 TEST(ForwardNoise, IsNoneOfMissingSamples) {
   std::vector<Odometry> samples = car_with_jitter(0.0);
   for (std::size_t i = 10; i < 1500; i += 7)
