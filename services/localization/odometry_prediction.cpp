@@ -236,7 +236,7 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   const bool is_jump = config_.odometry.time_is_known && by_wheels && !cannot_be &&
                        !step.wheels_begin && is_doubtful(*by_wheels, step.duration_s);
   step.has_doubted_wheels = cannot_be || is_jump;
-  step.have_wheels_leapt = cannot_be;
+  step.have_wheels_leapt = cannot_be && by_wheels->translation_m().norm() > kFarStep_m;
   if (state_.belief.is_disbelieved && by_wheels) go_on_without_wheels(step);
   else if (by_wheels && !step.has_doubted_wheels) follow_wheels(*by_wheels, step);
   else

@@ -46,7 +46,7 @@ struct Step {
   double stood_s = 0.0;             ///< How long wheels have reported no motion;
   bool is_standing = false;         ///< long enough for the vehicle to stand.
   bool has_doubted_wheels = false;  ///< They reported a motion that the vehicle cannot have made,
-  bool have_wheels_leapt = false;   ///< and farther than it can drive.
+  bool have_wheels_leapt = false;   ///< and some metres farther than it can drive.
   bool is_gap = false;              ///< Longer than longest_step_s.
   bool last_was_sampled = false;    ///< The last match left some direction to the prediction.
   double usual_duration_s = 0.1;    ///< Of the steps before.

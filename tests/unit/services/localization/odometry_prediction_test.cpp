@@ -63,6 +63,18 @@ TEST_F(OdometryPredictionTest, ChangesNothingByPredicting) {
   EXPECT_EQ(prediction_.last()->stamp_ns, stamp_ns(4));
 }
 
+TEST_F(OdometryPredictionTest, TellsALeapFromRoundingBetweenScansAtNearlyTheSameTime) {
+  drive(0, 5);
+  const std::int64_t soon_ns = stamp_ns(4) + 1000;  // another scanner's
+  prediction_.add({soon_ns, wheel_from_odom_ * pose_at(4) * Pose2{0.001, 0.0, 0.0}});
+  const Step rounded = prediction_.predict(soon_ns);
+  EXPECT_TRUE(rounded.has_doubted_wheels);
+  EXPECT_FALSE(rounded.have_wheels_leapt);
+  wheel_from_odom_.x_m += 40.0;
+  prediction_.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
+  EXPECT_TRUE(prediction_.predict(stamp_ns(5)).have_wheels_leapt);
+}
+
 TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityWhereOdometryJumps) {
   drive(0, 5);
   wheel_from_odom_.x_m += 4.0;
