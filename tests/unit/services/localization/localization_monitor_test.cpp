@@ -106,6 +106,9 @@ TEST_F(LocalizationMonitorTest, KnowsADriveThatBeginsElsewhereFromWheelsThatBegi
   match.matched_share = kUsualShare;
   EXPECT_EQ(see(match, StepSource::kReach, true), Verdict::kFits);
   EXPECT_FALSE(monitor_.begins_elsewhere()) << "the vehicle is where it was";
+  match.matched_share = 0.4 * kUsualShare;
+  see(match, StepSource::kReach, true);
+  EXPECT_FALSE(monitor_.begins_elsewhere()) << "a worse scan there than usual";
   match = believed_at(kElsewhere);
   match.matched_share = 0.5 * kUsualShare;
   EXPECT_EQ(see(match, StepSource::kReach, true), Verdict::kLost);
