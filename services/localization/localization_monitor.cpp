@@ -48,11 +48,9 @@ LocalizationMonitor::Verdict LocalizationMonitor::judge(const MatchToJudge& judg
 }
 
 bool LocalizationMonitor::leaps_elsewhere(const MatchToJudge& judged) const {
-  if (!judged.step.have_wheels_leapt) return false;
-  const MapAgreement found = agreement(judged.points, judged.match.odom_from_base.pose,
-                                       judged.map.evidence(), config_.map);
-  return judged.match.matched_share - found.contradicting_share() <
-         kElsewhere_share * judged.usual_share;
+  return judged.step.have_wheels_leapt &&
+         fit_at(judged.match.matched_share, judged.points, judged.match.odom_from_base.pose,
+                judged.map, config_.map) < kElsewhere_share * judged.usual_share;
 }
 
 /// Traffic on all sides hides the map for as long as it likes: what drives and was not seen to be

@@ -171,7 +171,6 @@ class Localizer final : public stages::LocalizationStage {
   void watch_lateness(const sensing::LaserScan& scan);
   void watch_factors(const sensing::LaserScan& scan);
   void take_points(const sensing::LaserScan& scan, const Step& step);
-  double fit_of(const ExplainedStep& explained) const;
   std::optional<ExplainedStep> explain_or_doubt(const sensing::LaserScan& scan,
                                                 const Step& by_wheels);
   std::optional<ExplainedStep> explain(const sensing::LaserScan& scan, const Step& by_wheels);

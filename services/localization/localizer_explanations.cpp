@@ -34,15 +34,6 @@ std::optional<ExplainedStep> Localizer::explain(const sensing::LaserScan& scan,
   return explained;
 }
 
-/// Share of the points that fit an explained step less that of those that contradict the map there.
-/// The points are those under it.
-double Localizer::fit_of(const ExplainedStep& explained) const {
-  return explained.registered.matched_share - agreement(points_,
-                                                        explained.registered.map_from_base.pose,
-                                                        submaps_.map().evidence(), config_.map)
-                                                  .contradicting_share();
-}
-
 /// Where odometry leads farther than usual and is not believed, it may have leapt while the vehicle
 /// went on as before: the place where it then is competes with those about where odometry leads.
 std::optional<ExplainedStep> Localizer::explain_or_doubt(const sensing::LaserScan& scan,
@@ -55,14 +46,19 @@ std::optional<ExplainedStep> Localizer::explain_or_doubt(const sensing::LaserSca
     return explained;
   const std::optional<Step> doubted = prediction_.with_doubted_wheels(by_wheels);
   if (!doubted) return explained;
+  const auto fit_of = [&](const matching::PointToLineResult& registered) {
+    return fit_at(registered.matched_share, points_, registered.map_from_base.pose, submaps_.map(),
+                  config_.map);
+  };
   const double least_fit = std::max(kFits * prediction_.state().belief.usual_share,
-                                    has_match ? fit_of(*explained) : 0.0);
+                                    has_match ? fit_of(explained->registered) : 0.0);
   take_points(scan, *doubted);
   std::optional<ExplainedStep> stayed = explain(scan, *doubted);
-  if (stayed && fit_of(*stayed) > least_fit) {
+  if (stayed && fit_of(stayed->registered) > least_fit) {
     ++counters_.odometry_jumps;
     return stayed;
   }
+  prediction_.weigh(explained->weights);
   take_points(scan, explained->step);
   return explained;
 }

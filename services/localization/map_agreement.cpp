@@ -45,6 +45,12 @@ MapAgreement agreement(const ScanPoints& points, const geometry::Pose2& odom_fro
   return found;
 }
 
+double fit_at(double matched_share, const ScanPoints& points, const geometry::Pose2& odom_from_base,
+              const LocalMap& map, const LocalMapConfig& config) {
+  return matched_share -
+         agreement(points, odom_from_base, map.evidence(), config).contradicting_share();
+}
+
 double explained_share(const std::vector<matching::MatchPoint>& points,
                        const geometry::Pose2& odom_from_base, const grids::EvidenceGrid& evidence,
                        const LocalMapConfig& config) {

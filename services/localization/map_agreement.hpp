@@ -34,6 +34,11 @@ struct MapAgreement {
 MapAgreement agreement(const ScanPoints& points, const geometry::Pose2& odom_from_base,
                        const grids::EvidenceGrid& evidence, const LocalMapConfig& config);
 
+/// How well a scan fits that was matched at the pose: the share of its points that match, less that
+/// of those that contradict the map.
+double fit_at(double matched_share, const ScanPoints& points, const geometry::Pose2& odom_from_base,
+              const LocalMap& map, const LocalMapConfig& config);
+
 /// Share of the points that lie on what the map knows: cheap, and enough to see that all is well.
 /// Of none, none.
 double explained_share(const std::vector<matching::MatchPoint>& points,
