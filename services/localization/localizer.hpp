@@ -17,27 +17,15 @@
 #include "common/stages/localization_stage.hpp"
 #include "common/work/side_work.hpp"
 #include "services/localization/checkpoint.hpp"
-#include "services/localization/companion_echoes.hpp"
 #include "services/localization/expected_objects.hpp"
-#include "services/localization/factor_watch.hpp"
-#include "services/localization/frozen_scanner.hpp"
-#include "services/localization/keyframe_odometry.hpp"
-#include "services/localization/lateness_watch.hpp"
 #include "services/localization/local_map.hpp"
-#include "services/localization/localization_monitor.hpp"
 #include "services/localization/localizer_config.hpp"
 #include "services/localization/localizer_counters.hpp"
-#include "services/localization/mixture_match.hpp"
-#include "services/localization/odometry_prediction.hpp"
-#include "services/localization/published_covariance.hpp"
-#include "services/localization/relocalization.hpp"
+#include "services/localization/pose_estimator.hpp"
 #include "services/localization/scan_description.hpp"
+#include "services/localization/scan_intake.hpp"
 #include "services/localization/scan_integration.hpp"
-#include "services/localization/scan_matcher.hpp"
-#include "services/localization/scan_order.hpp"
-#include "services/localization/scan_points.hpp"
 #include "services/localization/submap_sequence.hpp"
-#include "services/localization/sweep_correction.hpp"
 
 namespace slammot::localization {
 
@@ -49,7 +37,7 @@ class Localizer final : public stages::LocalizationStage {
   /// the polar view. The results are the same with it and without. It must outlive this.
   explicit Localizer(const LocalizerConfig& config, work::SideWork* help = nullptr);
 
-  void add_odometry(const sensing::Odometry& sample) override;
+  void add_odometry(const sensing::Odometry& sample) override { estimator_.add(sample); }
 
   void add_fix(const sensing::GnssFix& fix) override { submaps_.measurements().add(fix); }
   void add_heading(const sensing::CompassReading& reading) override {
@@ -57,7 +45,7 @@ class Localizer final : public stages::LocalizationStage {
   }
 
   /// Whether waiting for more odometry could still improve the prediction at the stamp.
-  bool has_odometry_for(std::int64_t stamp_ns) const { return prediction_.reaches(stamp_ns); }
+  bool has_odometry_for(std::int64_t stamp_ns) const { return prediction().reaches(stamp_ns); }
 
   /// Pose of the scan, its points without the sweep's motion, and what the map expected of each
   /// beam. None for a scan that is a duplicate (of the same scanner and stamp), out of order, or
@@ -104,23 +92,25 @@ class Localizer final : public stages::LocalizationStage {
   void go_on_after(const flow::CorrectedSubmap& last) override;
 
   /// Whether scans fit the local map, or its place in it is looked for.
-  bool is_lost() const override { return monitor_.is_lost(); }
+  bool is_lost() const override { return estimator_.monitor().is_lost(); }
 
   const geometry::Pose2& map_from_odom() const { return submaps_.map_from_odom(); }
   const sensing::MotionCalibration& calibration() const {
-    return prediction_.estimate().calibration;
+    return prediction().estimate().calibration;
   }
   /// By how much later than the scans odometry is stamped, as believed, and whether that is certain
   /// enough to be used.
-  double stamp_offset_s() const { return prediction_.stamp_offset_s(); }
-  double stamp_offset_sigma_s() const { return prediction_.stamp_offset_sigma_s(); }
-  bool applies_stamp_offset() const { return prediction_.state().applies_stamp_offset; }
+  double stamp_offset_s() const { return prediction().stamp_offset_s(); }
+  double stamp_offset_sigma_s() const { return prediction().stamp_offset_sigma_s(); }
+  bool applies_stamp_offset() const { return prediction().state().applies_stamp_offset; }
   /// What was concluded of odometry so far; since the last restore().
-  sensing::OdometryConclusions odometry_conclusions() const;
+  sensing::OdometryConclusions odometry_conclusions() const {
+    return estimator_.odometry_conclusions();
+  }
   std::optional<sensing::OdometryConclusions> verdict_on_odometry() const override {
     return odometry_conclusions();
   }
-  const SweepFactor& sweep_factor() const { return sweep_.factor(); }
+  const SweepFactor& sweep_factor() const { return estimator_.sweep().factor(); }
   const LocalizerCounters& counters() const { return counters_; }
   std::map<std::string, std::uint64_t> named_counters() const override { return named(counters_); }
   std::uint64_t maps_begun_astray() const override { return counters_.astray; }
@@ -138,11 +128,8 @@ class Localizer final : public stages::LocalizationStage {
  private:
   /// What a scan changes when it is localized: all that must be as before to do it again.
   struct Progress {
-    OdometryPrediction::State prediction;
-    PublishedCovariance::State covariance;
-    SweepFactor sweep_factor;
+    PoseEstimator::State estimate;
     SubmapSequence::Travel travelled;
-    LocalizationMonitor::State monitor;
     LocalizerCounters counters;
     std::uint64_t integrated_scans = 0;  ///< With more in the map, it is another one.
   };
@@ -153,61 +140,35 @@ class Localizer final : public stages::LocalizationStage {
     double yaw_rate_radps;
   };
 
+  const OdometryPrediction& prediction() const { return estimator_.prediction(); }
+  PoseTrust trust() const { return estimator_.monitor().trust(); }
   Progress progress() const;
   void return_to(const Progress& progress);
-  bool is_in_order(const sensing::LaserScan& scan);
-  bool has_rare_scans() const;
-  bool measures_nothing(const sensing::LaserScan& scan) const;
   flow::LocalizedScan localize_in_order(const sensing::LaserScan& scan,
                                         flow::LocalizedScan workspace);
   std::optional<flow::LocalizedScan> predict_blank(const sensing::LaserScan& scan,
                                                    flow::LocalizedScan workspace);
-  std::optional<std::int64_t> last_stamp_ns() const;
-  const geometry::Pose2& odom_from_base() const { return prediction_.estimate().odom_from_base; }
   void begin(const sensing::LaserScan& scan);
   void place_next(const sensing::LaserScan& scan);
   bool place(const sensing::LaserScan& scan);
-  void compare_odometry(const sensing::LaserScan& scan, const Step& step, const ScanMatch& found);
-  void watch_lateness(const sensing::LaserScan& scan);
-  void watch_factors(const sensing::LaserScan& scan);
-  void take_points(const sensing::LaserScan& scan, const Step& step);
-  std::optional<ExplainedStep> explain_or_doubt(const sensing::LaserScan& scan,
-                                                const Step& by_wheels);
-  std::optional<ExplainedStep> explain(const sensing::LaserScan& scan, const Step& by_wheels);
-  ScanMatch match_or_relocalize(const sensing::LaserScan& scan, const Step& step,
-                                const matching::PointToLineResult* registered);
-  std::optional<ScanMatch> relocalize(const Step& step);
-  void begin_astray_map(std::int64_t since_ns);
   bool can_be_placed_again(const sensing::LaserScan& scan,
                            const std::vector<flow::PointLabel>& labels) const;
-  EstimateAtScan estimate_at_last_scan() const;
+  flow::LocalizedScan describe_placed(const sensing::LaserScan& scan,
+                                      flow::LocalizedScan workspace);
   flow::LocalizedScan describe_and_remember(const sensing::LaserScan& scan,
                                             const EstimateAtScan& now, MapAdmission admission,
                                             flow::LocalizedScan workspace);
   Checkpoint checkpoint_now() const;
-  void resume(RestoredCheckpoint restored, OdometryPrediction&& before);
+  void resume(RestoredCheckpoint restored, PoseEstimator&& before);
 
   LocalizerConfig config_;
-  ScanOrder order_;
-  FrozenScanner frozen_;
-  CompanionEchoes companions_;
-  OdometryPrediction prediction_;
-  SweepCorrection sweep_;
+  ScanIntake intake_;
   ExpectedObjects expected_;
-  ScanPoints points_;  ///< Of the scan at hand.
-  ScanMatcher matcher_;
-  MixtureMatch mixture_;
-  KeyframeOdometry keyframes_;
-  LatenessWatch lateness_;
-  FactorWatch factors_;
-  LocalizationMonitor monitor_;
-  Relocalization relocalization_;
-  PublishedCovariance covariance_;
+  PoseEstimator estimator_;
   SubmapSequence submaps_;
   ScanDescription description_;
   ScanIntegration integration_;
   LocalizerCounters counters_;
-  sensing::OdometryEpisodes episodes_;
   std::optional<Progress> before_scan_;  ///< Before the last one, while it may be localized again.
 };
 

@@ -6,6 +6,10 @@
 
 namespace slammot::localization {
 
+struct Step;
+struct ScanMatch;
+struct IntegrationCounts;
+
 /// What happened so far; all grow only.
 struct LocalizerCounters {
   std::uint64_t scans = 0;
@@ -37,30 +41,11 @@ struct LocalizerCounters {
 };
 
 /// By the names of the members, as reports and statuses show them.
-inline std::map<std::string, std::uint64_t> named(const LocalizerCounters& counters) {
-  return {{"scans", counters.scans},
-          {"duplicate_scans", counters.duplicate_scans},
-          {"out_of_order_scans", counters.out_of_order_scans},
-          {"far_ahead_scans", counters.far_ahead_scans},
-          {"blank_scans", counters.blank_scans},
-          {"frozen_scans", counters.frozen_scans},
-          {"too_few_echoes", counters.too_few_echoes},
-          {"lost_matches", counters.lost_matches},
-          {"searches", counters.searches},
-          {"sampled_matches", counters.sampled_matches},
-          {"found_again", counters.found_again},
-          {"astray", counters.astray},
-          {"withheld_scans", counters.withheld_scans},
-          {"odometry_jumps", counters.odometry_jumps},
-          {"without_odometry", counters.without_odometry},
-          {"rough_odometry", counters.rough_odometry},
-          {"disbelieved_odometry", counters.disbelieved_odometry},
-          {"recalibrations", counters.recalibrations},
-          {"retimed_odometry", counters.retimed_odometry},
-          {"gaps", counters.gaps},
-          {"fallback_integrations", counters.fallback_integrations},
-          {"restored_points", counters.restored_points},
-          {"submaps", counters.submaps}};
-}
+std::map<std::string, std::uint64_t> named(const LocalizerCounters& counters);
+
+/// Adds what a step, a match or an integration did.
+void count(const Step& step, LocalizerCounters& counters);
+void count(const ScanMatch& match, LocalizerCounters& counters);
+void count(const IntegrationCounts& integrated, LocalizerCounters& counters);
 
 }  // namespace slammot::localization

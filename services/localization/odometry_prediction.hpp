@@ -203,6 +203,10 @@ class OdometryPrediction {
 
   const sensing::MotionEstimate& estimate() const { return state_.estimate; }
   const std::optional<LastScan>& last() const { return state_.last; }
+  std::optional<std::int64_t> last_stamp_ns() const {
+    return state_.last ? std::optional(state_.last->stamp_ns) : std::nullopt;
+  }
+  bool has_rare_scans() const { return state_.belief.usual_step_s >= sensing::kRareScans_s; }
 
   /// By how much later than the scans odometry is stamped, as believed.
   double stamp_offset_s() const { return sensing::stamp_offset_s(of_stamps()); }

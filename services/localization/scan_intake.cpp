@@ -1,0 +1,48 @@
+#include "services/localization/scan_intake.hpp"
+
+#include "services/localization/blind_scan.hpp"
+
+namespace slammot::localization {
+namespace {
+
+/// Rare scans are dead reckoned like any other.
+bool measures_nothing(const sensing::LaserScan& scan, const OdometryPrediction& prediction,
+                      const LocalMap& map) {
+  return sensing::is_blank(scan, prediction.state().belief.usual_step_s) ||
+         (prediction.last() && !prediction.has_rare_scans() &&
+          is_blind(scan, prediction.estimate().odom_from_base, map));
+}
+
+}  // namespace
+
+bool ScanIntake::is_in_order(const sensing::LaserScan& scan, const OdometryPrediction& prediction,
+                             LocalizerCounters& counters) {
+  switch (order_.judge(scan, prediction.last_stamp_ns())) {
+    case ScanOrder::Verdict::kUsable: return true;
+    case ScanOrder::Verdict::kDuplicate: ++counters.duplicate_scans; break;
+    case ScanOrder::Verdict::kOutOfOrder: ++counters.out_of_order_scans; break;
+    case ScanOrder::Verdict::kFarAhead: ++counters.far_ahead_scans; break;
+  }
+  return false;
+}
+
+ScanIntake::Use ScanIntake::judge(const sensing::LaserScan& scan,
+                                  const OdometryPrediction& prediction, const LocalMap& map,
+                                  LocalizerCounters& counters) {
+  if (!is_in_order(scan, prediction, counters)) return Use::kDropped;
+  if (frozen_.repeats(scan, prediction.wheel_from_base_at(scan.stamp_ns)) && prediction.last()) {
+    ++counters.frozen_scans;
+    return prediction.has_rare_scans() ? Use::kWithoutReadings : Use::kPredicted;
+  }
+  if (!measures_nothing(scan, prediction, map)) return Use::kLocalized;
+  ++counters.blank_scans;
+  return Use::kPredicted;
+}
+
+const std::vector<std::size_t>& ScanIntake::accept(const sensing::LaserScan& scan,
+                                                   const OdometryPrediction& prediction) {
+  order_.accept(scan, prediction.last_stamp_ns());
+  return companions_.of(scan, prediction.wheel_from_base_at(scan.stamp_ns));
+}
+
+}  // namespace slammot::localization
