@@ -83,7 +83,7 @@ void KeyframeOdometry::begin(const Seen& seen) {
   if (!state_.keyframe) state_.keyframe = Keyframe{};
   state_.rests = false;
   state_.keyframe->stamp_ns = seen.step.stamp_ns;
-  state_.keyframe->wheel_from_base = *seen.step.wheel_from_base;
+  state_.keyframe->wheel_from_base = *seen.step.wheels.wheel_from_base;
   state_.keyframe->odom_from_base = seen.odom_from_base;
   state_.keyframe->scanner_id = seen.scanner_id;
   state_.keyframe->points_in_base_m.clear();
@@ -197,13 +197,13 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
 
 std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen& seen) {
   const Step& step = seen.step;
-  if (!step.wheel_from_base || step.usual_duration_s > sensing::kRareScans_s) {
+  if (!step.wheels.wheel_from_base || step.usual_duration_s > sensing::kRareScans_s) {
     state_.keyframe.reset();
     state_.compared_ns.reset();
     return std::nullopt;
   }
   if (state_.compared_ns == step.stamp_ns) return last_;
-  if (step.wheels_changed) {
+  if (step.wheels.have_changed) {
     // Before and after the change odometry may have different factors: a comparison across it
     // would mix them.
     state_.way_ratio.doubt();
@@ -219,7 +219,7 @@ std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen&
   }
   if (state_.keyframe->scanner_id != seen.scanner_id) return std::nullopt;
   const Pose2 by_wheels =
-      geometry::inverse(state_.keyframe->wheel_from_base) * *step.wheel_from_base;
+      geometry::inverse(state_.keyframe->wheel_from_base) * *step.wheels.wheel_from_base;
   const Pose2 expected = geometry::inverse(state_.keyframe->odom_from_base) * seen.odom_from_base;
   const double duration_s = static_cast<double>(step.stamp_ns - state_.keyframe->stamp_ns) * 1e-9;
   const bool is_still =

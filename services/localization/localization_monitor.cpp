@@ -48,7 +48,7 @@ LocalizationMonitor::Verdict LocalizationMonitor::judge(const MatchToJudge& judg
 }
 
 bool LocalizationMonitor::leaps_elsewhere(const MatchToJudge& judged) const {
-  return judged.step.have_wheels_leapt &&
+  return judged.step.wheels.have_leapt &&
          fit_at(judged.match.matched_share, judged.points, judged.match.odom_from_base.pose,
                 judged.map, config_.map) < kElsewhere_share * judged.usual_share;
 }

@@ -33,8 +33,7 @@ std::map<std::string, std::uint64_t> named(const LocalizerCounters& counters) {
 }
 
 void count(const Step& step, LocalizerCounters& counters) {
-  if (step.is_gap) ++counters.gaps;
-  if (step.has_doubted_wheels) ++counters.odometry_jumps;
+  if (step.wheels.are_doubted) ++counters.odometry_jumps;
   else if (!step.is_by_wheels()) ++counters.without_odometry;
 }
 

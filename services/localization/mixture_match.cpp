@@ -54,7 +54,7 @@ double independent_share(const Step& step) {
 /// usual step ends outweigh a twentieth of the points: docs/decisions/scan-matching.md.
 double weight_of_evidence(const Step& step) {
   constexpr double kWithoutOdometry = 2.5;
-  const bool is_without = step.source == StepSource::kReach && !step.wheel_from_base;
+  const bool is_without = step.source == StepSource::kReach && !step.wheels.wheel_from_base;
   return is_without ? kWithoutOdometry : 1.0;
 }
 
@@ -208,7 +208,7 @@ sensing::ExplanationWeights in_doubt(sensing::ExplanationWeights weights) {
 }
 
 ExplainedStep MixtureMatch::explain(const StepToExplain& questioned, ScanMatcher& matcher) {
-  if (!questioned.steps.front().wheels_in_doubt) return explain_as_weighed(questioned, matcher);
+  if (!questioned.steps.front().wheels.are_in_doubt) return explain_as_weighed(questioned, matcher);
   StepToExplain scan = questioned;
   scan.weights = in_doubt(scan.weights);
   return explain_as_weighed(scan, matcher);
@@ -227,8 +227,8 @@ ExplainedStep MixtureMatch::explain_as_weighed(const StepToExplain& scan, ScanMa
   Best best = is_unsure ? nothing_yet() : at_prediction(scan, matcher);
   if (is_unsure) around(scan, widest(scan, kRough), matcher, best);
   sensing::ExplanationWeights weights = sensing::updated(scan.weights, best.log_likelihoods);
-  const bool stands = by_wheels.stood_s > kStands_s && !by_wheels.wheels_in_doubt;
-  const bool has_changed = !is_unsure && by_wheels.wheels_in_doubt;
+  const bool stands = by_wheels.wheels.stood_s > kStands_s && !by_wheels.wheels.are_in_doubt;
+  const bool has_changed = !is_unsure && by_wheels.wheels.are_in_doubt;
   const bool is_suspicious =
       has_changed ||
       (!is_unsure && weights[sensing::index_of(StepExplanation::kWheels)] < kSuspiciousBelow);

@@ -17,7 +17,7 @@ constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 
 /// True if the step was made by wheels, and the match was free to contradict them.
 bool tells_of_calibration(const Step& step, const ScanMatch& match) {
   return step.explanation == sensing::StepExplanation::kWheels && step.is_by_wheels() &&
-         !step.is_standing && match.is_believed && !match.was_sampled && !match.is_lost;
+         !step.wheels.is_standing && match.is_believed && !match.was_sampled && !match.is_lost;
 }
 
 /// Another estimate of the same motion after the step, with the same match.
@@ -93,20 +93,20 @@ void OdometryPrediction::learn_wheels(const Step& step, const ScanMatch& match) 
   constexpr int kAdoptAfterScans = 3;
   sensing::OdometryBelief& belief = state_.belief;
   const bool is_matched = match.is_believed && !match.is_lost;
-  if (step.wheels_begin) belief = sensing::with_first_wheels(belief);
+  if (step.wheels.have_begun) belief = sensing::with_first_wheels(belief);
   belief = sensing::moved(belief, step.explanation, step.duration_s,
                           is_matched ? std::optional(matched_step(step, match)) : std::nullopt,
                           config_.motion, config_.belief);
   if (is_matched)
     belief.usual_share += kUsualShareMemory * (match.matched_share - belief.usual_share);
-  if (step.wheels_changed) belief = sensing::with_changed_wheels(belief);
-  if (step.has_wheels() || step.has_doubted_wheels)
-    belief = sensing::with_wheels(belief, step.uncorrected_by_wheels, step.duration_s);
+  if (step.wheels.have_changed) belief = sensing::with_changed_wheels(belief);
+  if (step.has_wheels() || step.wheels.are_doubted)
+    belief = sensing::with_wheels(belief, step.wheels.uncorrected, step.duration_s);
   const bool tells_of_wheels = step.explanation != sensing::StepExplanation::kWheels &&
-                               step.wheel_from_base && state_.last->has_wheels &&
-                               !step.has_doubted_wheels;
+                               step.wheels.wheel_from_base && state_.last->has_wheels &&
+                               !step.wheels.are_doubted;
   if (is_matched && tells_of_wheels && !match.was_sampled)
-    belief.estimator.observe(step.uncorrected_by_wheels, matched_step(step, match),
+    belief.estimator.observe(step.wheels.uncorrected, matched_step(step, match),
                              step.duration_s);
   const bool is_better =
       belief.weights[sensing::index_of(sensing::StepExplanation::kRecalibrated)] > kAdoptAbove;
@@ -273,19 +273,19 @@ OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step,
   const bool is_by_velocity = is_later && !step.is_by_wheels();
   return {
       .stamp_ns = step.stamp_ns,
-      .has_wheels = step.wheel_from_base.has_value(),
-      .wheel_from_base = step.wheel_from_base.value_or(Pose2{}),
+      .has_wheels = step.wheels.wheel_from_base.has_value(),
+      .wheel_from_base = step.wheels.wheel_from_base.value_or(Pose2{}),
       .knows_velocity = state_.last->knows_velocity ||
                         (is_later && (step.is_by_wheels() || is_sure_of_velocity(state_.estimate))),
       .was_sampled = match.was_sampled,
       .speed_mps = is_by_velocity ? state_.estimate.velocity.x() : step.speed_mps,
       .yaw_rate_radps = is_by_velocity ? state_.estimate.velocity.y() : step.yaw_rate_radps,
-      .doubted_wheels = step.has_doubted_wheels,
-      .trusted_s = step.has_doubted_wheels ? 0.0 : state_.last->trusted_s + step.duration_s,
-      .stood_s = step.stood_s,
+      .doubted_wheels = step.wheels.are_doubted,
+      .trusted_s = step.wheels.are_doubted ? 0.0 : state_.last->trusted_s + step.duration_s,
+      .stood_s = step.wheels.stood_s,
       .wheels_have_counted =
           state_.last->wheels_have_counted ||
-          (step.has_wheels() && !sensing::count_nothing(step.uncorrected_by_wheels))};
+          (step.has_wheels() && !sensing::count_nothing(step.wheels.uncorrected))};
 }
 
 void OdometryPrediction::begin_map_here() {

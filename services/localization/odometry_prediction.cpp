@@ -109,8 +109,8 @@ std::optional<Pose2> OdometryPrediction::wheel_from_base_at(std::int64_t stamp_n
 std::optional<Pose2> OdometryPrediction::step_by_wheels(const Step& step) const {
   std::optional<Pose2> before = wheel_from_base_at(state_.last->stamp_ns);
   if (!before && state_.last->has_wheels) before = state_.last->wheel_from_base;
-  if (!before || !step.wheel_from_base) return std::nullopt;
-  return geometry::inverse(*before) * *step.wheel_from_base;
+  if (!before || !step.wheels.wheel_from_base) return std::nullopt;
+  return geometry::inverse(*before) * *step.wheels.wheel_from_base;
 }
 
 /// What the wheels say of the step from the last scan to the stamp, or of one so much later.
@@ -175,10 +175,10 @@ sensing::MotionEstimate OdometryPrediction::doubted_velocity(const Pose2& by_whe
 
 void OdometryPrediction::follow_wheels(const Pose2& by_wheels, Step& step) const {
   step.source = StepSource::kOdometry;
-  step.stood_s =
+  step.wheels.stood_s =
       is_still(by_wheels, step.duration_s) ? state_.last->stood_s + step.duration_s : 0.0;
-  step.is_standing = step.stood_s > kStandsAfter_s;
-  if (step.is_standing)
+  step.wheels.is_standing = step.wheels.stood_s > kStandsAfter_s;
+  if (step.wheels.is_standing)
     step.after = sensing::stood_still(state_.estimate, step.duration_s, config_.motion);
   else step.after = moved_by_wheels(by_wheels, step.stamp_ns, step.duration_s);
 }
@@ -186,7 +186,7 @@ void OdometryPrediction::follow_wheels(const Pose2& by_wheels, Step& step) const
 void OdometryPrediction::go_on_at_velocity(const sensing::MotionEstimate& before,
                                            Step& step) const {
   step.explanation = sensing::StepExplanation::kOther;
-  step.source = step.wheel_from_base || state_.last->has_wheels ? StepSource::kVelocityThisOnce
+  step.source = step.wheels.wheel_from_base || state_.last->has_wheels ? StepSource::kVelocityThisOnce
                                                                 : StepSource::kVelocityAlone;
   if (step.source == StepSource::kVelocityAlone)
     step.usual_duration_s = usual_duration_so_far_s(step, state_.belief, config_.belief);
@@ -206,39 +206,38 @@ void OdometryPrediction::go_on_without_wheels(Step& step) const {
     step =
         StepExplanations(state_.estimate, state_.belief, config_, motion_of_one_clock_).other(step);
   else go_on_at_velocity(state_.estimate, step);
-  step.explanation_was_chosen = true;
+  step.wheels.are_overruled = true;
 }
 
 Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   Step step;
   step.stamp_ns = stamp_ns;
   step.duration_s = static_cast<double>(stamp_ns - state_.last->stamp_ns) * 1e-9;
-  step.is_gap = step.duration_s > config_.odometry.longest_step_s;
-  step.wheel_from_base = wheel_from_base_at(stamp_ns);
+  step.wheels.wheel_from_base = wheel_from_base_at(stamp_ns);
   step.odom_from_base_before = state_.estimate.uncertain_pose();
   step.last_was_sampled = state_.last->was_sampled;
   step.usual_duration_s = state_.belief.usual_step_s;
   std::optional<Pose2> by_wheels = step_by_wheels(step);
   if (by_wheels) {
-    step.uncorrected_by_wheels = *by_wheels;
+    step.wheels.uncorrected = *by_wheels;
     by_wheels = sensing::corrected(*by_wheels, step.duration_s, state_.belief.factors);
   }
   const bool was_disbelieved =
       state_.belief.last == sensing::StepExplanation::kOther && state_.last->has_wheels;
   const bool has_changed =
       config_.odometry.time_is_known && by_wheels &&
-      sensing::has_changed(state_.belief, step.uncorrected_by_wheels, step.duration_s);
-  step.wheels_begin = has_changed && !state_.last->wheels_have_counted;
-  step.wheels_changed = has_changed && !step.wheels_begin;
-  step.wheels_in_doubt =
-      step.wheels_changed || (config_.odometry.time_is_known && by_wheels && was_disbelieved);
+      sensing::has_changed(state_.belief, step.wheels.uncorrected, step.duration_s);
+  step.wheels.have_begun = has_changed && !state_.last->wheels_have_counted;
+  step.wheels.have_changed = has_changed && !step.wheels.have_begun;
+  step.wheels.are_in_doubt =
+      step.wheels.have_changed || (config_.odometry.time_is_known && by_wheels && was_disbelieved);
   const bool cannot_be = by_wheels && is_impossible(*by_wheels, step.duration_s);
   const bool is_jump = config_.odometry.time_is_known && by_wheels && !cannot_be &&
-                       !step.wheels_begin && is_doubtful(*by_wheels, step.duration_s);
-  step.has_doubted_wheels = cannot_be || is_jump;
-  step.have_wheels_leapt = cannot_be && by_wheels->translation_m().norm() > kFarStep_m;
+                       !step.wheels.have_begun && is_doubtful(*by_wheels, step.duration_s);
+  step.wheels.are_doubted = cannot_be || is_jump;
+  step.wheels.have_leapt = cannot_be && by_wheels->translation_m().norm() > kFarStep_m;
   if (state_.belief.is_disbelieved && by_wheels) go_on_without_wheels(step);
-  else if (by_wheels && !step.has_doubted_wheels) follow_wheels(*by_wheels, step);
+  else if (by_wheels && !step.wheels.are_doubted) follow_wheels(*by_wheels, step);
   else
     go_on_at_velocity(is_jump ? doubted_velocity(*by_wheels, step.duration_s) : state_.estimate,
                       step);
@@ -252,12 +251,12 @@ std::optional<Step> OdometryPrediction::with_doubted_wheels(const Step& by_wheel
       state_.belief.usual_drive_m * std::max(1.0, usual_steps_in(by_wheels.duration_s));
   const bool is_unusual =
       by_wheels.is_by_wheels() &&
-      by_wheels.uncorrected_by_wheels.translation_m().norm() > kUnusual * usual_m + kUnusual_m;
+      by_wheels.wheels.uncorrected.translation_m().norm() > kUnusual * usual_m + kUnusual_m;
   if (!is_unusual || has_velocity(by_wheels, config_)) return std::nullopt;
   Step step = by_wheels;
-  step.has_doubted_wheels = true;
-  step.is_standing = false;
-  step.stood_s = 0.0;
+  step.wheels.are_doubted = true;
+  step.wheels.is_standing = false;
+  step.wheels.stood_s = 0.0;
   go_on_at_velocity(state_.estimate, step);
   return with_velocity(step, *state_.last);
 }
@@ -272,7 +271,7 @@ StepMixture OdometryPrediction::explanations(const Step& by_wheels) const {
     for (Step& step : steps) step = with_velocity(step, *state_.last);
     return steps;
   }
-  if (!by_wheels.is_by_wheels() || by_wheels.wheels_begin) return {by_wheels};
+  if (!by_wheels.is_by_wheels() || by_wheels.wheels.have_begun) return {by_wheels};
   StepMixture steps{by_wheels, alternatives.rough(by_wheels), alternatives.other(by_wheels)};
   if (auto recalibrated = alternatives.recalibrated(by_wheels)) steps.push_back(*recalibrated);
   for (Step& step : steps) step = with_velocity(step, *state_.last);

@@ -31,39 +31,42 @@ enum class StepSource {
   kVelocityAlone,     ///< Constant velocity: there are no wheels.
 };
 
+/// What odometry says of a step.
+struct StepWheels {
+  std::optional<geometry::Pose2> wheel_from_base;  ///< At the scan at hand.
+  geometry::Pose2 uncorrected;                     ///< The step as odometry has it.
+  double stood_s = 0.0;                            ///< How long it has reported no motion;
+  bool is_standing = false;                        ///< long enough for the vehicle to stand.
+  bool are_doubted = false;  ///< It reported a motion that the vehicle cannot have made,
+  bool have_leapt = false;   ///< and some metres farther than it can drive.
+  bool have_begun = false;   ///< It counts for the first time, and at once more than a vehicle sets
+                             ///< off with: it was driving before.
+  bool have_changed = false;   ///< It changed its velocity as no vehicle does.
+  bool are_in_doubt = false;   ///< So it did, or it was not believed at the last scan.
+  bool are_overruled = false;  ///< It predicted the step, and another explanation won.
+};
+
 /// Motion from the last scan to the one at hand, as predicted before that is matched. Poses in
 /// odom.
 struct Step {
-  std::int64_t stamp_ns = 0;  ///< Of the scan at hand.
-  double duration_s = 0.0;    ///< Since the last one; 0 for another scanner's at the same time.
+  std::int64_t stamp_ns = 0;      ///< Of the scan at hand.
+  double duration_s = 0.0;        ///< Since the last one; 0 for another scanner's at the same time.
+  double usual_duration_s = 0.1;  ///< Of the steps before.
   StepSource source = StepSource::kVelocityAlone;
-  std::optional<geometry::Pose2> wheel_from_base;  ///< At the stamp.
+  StepWheels wheels;
   geometry::UncertainPose2 odom_from_base_before;  ///< Estimate at the last scan.
   sensing::MotionEstimate after;     ///< Prediction at the stamp; the prior of the match.
   geometry::Pose2 before_from_base;  ///< The step as predicted.
   double speed_mps = 0.0;            ///< Forward, during the step.
   double yaw_rate_radps = 0.0;
-  double stood_s = 0.0;             ///< How long wheels have reported no motion;
-  bool is_standing = false;         ///< long enough for the vehicle to stand.
-  bool has_doubted_wheels = false;  ///< They reported a motion that the vehicle cannot have made,
-  bool have_wheels_leapt = false;   ///< and some metres farther than it can drive.
-  bool is_gap = false;              ///< Longer than longest_step_s.
-  bool last_was_sampled = false;    ///< The last match left some direction to the prediction.
-  double usual_duration_s = 0.1;    ///< Of the steps before.
+  bool last_was_sampled = false;  ///< The last match left some direction to the prediction.
   sensing::StepExplanation explanation = sensing::StepExplanation::kWheels;  ///< Which component of
                                                                              ///< the mixture of
                                                                              ///< predictions this
                                                                              ///< is.
-  bool wheels_begin = false;     ///< They count for the first time, and at once more than a vehicle
-                                 ///< sets off with: it was driving before.
-  bool wheels_changed = false;   ///< Odometry changed its velocity as no vehicle does.
-  bool wheels_in_doubt = false;  ///< So it did, or it was not believed at the last scan.
-  bool explanation_was_chosen = false;    ///< Odometry predicted the step, and another explanation
-                                          ///< won.
-  geometry::Pose2 uncorrected_by_wheels;  ///< As odometry has the step.
 
   /// Whether odometry spoke of the step and was no jump, believed or not.
-  bool has_wheels() const { return is_by_wheels() || explanation_was_chosen; }
+  bool has_wheels() const { return is_by_wheels() || wheels.are_overruled; }
   bool is_by_wheels() const { return source == StepSource::kOdometry; }
   geometry::UncertainPose2 prior() const { return after.uncertain_pose(); }
 };

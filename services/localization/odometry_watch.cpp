@@ -9,9 +9,9 @@ sensing::OdometryStep odometry_step(const Step& step, const ScanMatch& match,
   sensing::OdometryStep record{.stamp_ns = step.stamp_ns,
                                .duration_s = step.duration_s,
                                .explanation = step.explanation,
-                               .is_jump = step.has_doubted_wheels};
-  if (step.has_wheels() || step.has_doubted_wheels)
-    record.by_wheels = sensing::corrected(step.uncorrected_by_wheels, step.duration_s, factors);
+                               .is_jump = step.wheels.are_doubted};
+  if (step.has_wheels() || step.wheels.are_doubted)
+    record.by_wheels = sensing::corrected(step.wheels.uncorrected, step.duration_s, factors);
   if (match.is_believed && !match.is_lost) record.by_matches = matched_step(step, match);
   return record;
 }

@@ -30,6 +30,7 @@ void PoseEstimator::begin(const sensing::LaserScan& scan) {
 bool PoseEstimator::place(const ScanToPlace& placed) {
   Step step = prediction_.predict(placed.scan.stamp_ns);
   count(step, placed.counters);
+  placed.counters.gaps += step.duration_s > config_.odometry.longest_step_s;
   take_points(placed, step);
   const std::optional<ExplainedStep> explained = explain_or_doubt(placed, step);
   if (explained) step = explained->step;

@@ -60,9 +60,9 @@ Step StepExplanations::about(Step step, const geometry::Pose2& before_from_base,
 Step StepExplanations::rough(const Step& by_wheels) const {
   Step step = by_wheels;
   step.explanation = StepExplanation::kRoughWheels;
-  step.explanation_was_chosen = true;
+  step.wheels.are_overruled = true;
   const geometry::Pose2 corrected =
-      sensing::corrected(by_wheels.uncorrected_by_wheels, by_wheels.duration_s, belief_.factors);
+      sensing::corrected(by_wheels.wheels.uncorrected, by_wheels.duration_s, belief_.factors);
   const double more = config_.belief.rough_sigmas * config_.belief.rough_sigmas - 1.0;
   const Matrix3 by_step = geometry::compound_jacobian_second(before_.odom_from_base);
   const Matrix3 noise =
@@ -76,12 +76,12 @@ std::optional<Step> StepExplanations::recalibrated(const Step& by_wheels) const 
   if (!belief_.estimator.is_known()) return std::nullopt;
   Step step = by_wheels;
   step.explanation = StepExplanation::kRecalibrated;
-  step.explanation_was_chosen = true;
-  step.is_standing = false;
+  step.wheels.are_overruled = true;
+  step.wheels.is_standing = false;
   sensing::MotionEstimate before = before_;
   before.calibration.head<3>().setZero();
   const geometry::Pose2 corrected = sensing::corrected(
-      by_wheels.uncorrected_by_wheels, by_wheels.duration_s, belief_.estimator.factors());
+      by_wheels.wheels.uncorrected, by_wheels.duration_s, belief_.estimator.factors());
   step.after = sensing::moved_by_wheels(before, {corrected, by_wheels.duration_s}, motion_);
   step.after.calibration = before_.calibration;
   return step;
@@ -115,9 +115,9 @@ Step StepExplanations::within_reach(Step step) const {
 Step StepExplanations::other(const Step& by_wheels) const {
   Step step = by_wheels;
   step.explanation = StepExplanation::kOther;
-  step.explanation_was_chosen = true;
-  step.is_standing = false;
-  step.stood_s = 0.0;
+  step.wheels.are_overruled = true;
+  step.wheels.is_standing = false;
+  step.wheels.stood_s = 0.0;
   return has_velocity(by_wheels, config_) ? at_constant_velocity(std::move(step))
                                           : within_reach(std::move(step));
 }

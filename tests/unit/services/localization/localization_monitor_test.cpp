@@ -25,7 +25,7 @@ class LocalizationMonitorTest : public ::testing::Test {
   /// The next scan, made at the origin, is matched at a pose.
   Verdict see(const ScanMatch& match, StepSource source, bool have_wheels_leapt = false) {
     Step step;
-    step.has_doubted_wheels = step.have_wheels_leapt = have_wheels_leapt;
+    step.wheels.are_doubted = step.wheels.have_leapt = have_wheels_leapt;
     step.stamp_ns = stamp_ns_ += kPeriod_ns;
     step.duration_s = 0.1;
     step.source = source;

@@ -92,7 +92,7 @@ TEST_F(MixtureMatchTest, TakesWheelsThatTheScanAgreesWithWithoutASearch) {
 TEST_F(MixtureMatchTest, FollowsTheScanWhereWheelsAreOffByManySigmas) {
   const Pose2 truth{0.3, 0.2, 0.1};
   StepMixture steps = explanations_of({0.9, 0.2, 0.1}, {0.15, 0.1, 0.05});
-  steps.front().wheels_in_doubt = true;
+  steps.front().wheels.are_in_doubt = true;
   const ExplainedStep explained = explain(truth, steps, room_);
   EXPECT_EQ(explained.step.explanation, StepExplanation::kOther);
   EXPECT_LT(weight_of(explained, StepExplanation::kWheels), 0.01);
@@ -253,7 +253,7 @@ TEST_F(MixtureMatchTest, BelievesWheelsThatBackAwayFromWhatTheScannerSees) {
     step.usual_duration_s = 2.0;  // a scan a metre
     step.odom_from_base_before.pose = start;
   }
-  steps.front().wheels_in_doubt = true;
+  steps.front().wheels.are_in_doubt = true;
   take(scan, behind, points);
   ScanMatcher matcher(config_);
   MixtureMatch mixture(config_);

@@ -68,11 +68,11 @@ TEST_F(OdometryPredictionTest, TellsALeapFromRoundingBetweenScansAtNearlyTheSame
   const std::int64_t soon_ns = stamp_ns(4) + 1000;  // another scanner's
   prediction_.add({soon_ns, wheel_from_odom_ * pose_at(4) * Pose2{0.001, 0.0, 0.0}});
   const Step rounded = prediction_.predict(soon_ns);
-  EXPECT_TRUE(rounded.has_doubted_wheels);
-  EXPECT_FALSE(rounded.have_wheels_leapt);
+  EXPECT_TRUE(rounded.wheels.are_doubted);
+  EXPECT_FALSE(rounded.wheels.have_leapt);
   wheel_from_odom_.x_m += 40.0;
   prediction_.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
-  EXPECT_TRUE(prediction_.predict(stamp_ns(5)).have_wheels_leapt);
+  EXPECT_TRUE(prediction_.predict(stamp_ns(5)).wheels.have_leapt);
 }
 
 TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityWhereOdometryJumps) {
@@ -81,7 +81,7 @@ TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityWhereOdometryJumps) {
   prediction_.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
   const Step step = prediction_.predict(stamp_ns(5));
   EXPECT_EQ(step.source, StepSource::kVelocityThisOnce);
-  EXPECT_TRUE(step.has_doubted_wheels);
+  EXPECT_TRUE(step.wheels.are_doubted);
   EXPECT_THAT(step.after.odom_from_base, PoseNear(pose_at(5), 0.05));
   EXPECT_GT(step.prior().covariance(0, 0), 0.01) << "the match has to decide";
 }
@@ -92,7 +92,7 @@ TEST_F(OdometryPredictionTest, BelievesAnUnlikelyStepThatIsReportedTwice) {
   for (int scan = 5; scan < 7; ++scan)
     prediction_.add({stamp_ns(scan), wheel_from_odom_ * stopped});
   const Step first = prediction_.predict(stamp_ns(5));
-  EXPECT_TRUE(first.has_doubted_wheels);
+  EXPECT_TRUE(first.wheels.are_doubted);
   prediction_.observe(first, without_match(first));
   EXPECT_TRUE(prediction_.predict(stamp_ns(6)).is_by_wheels());
 }
@@ -134,8 +134,8 @@ TEST_F(OdometryPredictionTest, BelievesWheelsThatBeginToCountWhileTheVehicleDriv
   for (int scan = 5; scan < 9; ++scan) {
     prediction_.add({stamp_ns(scan), wheel_from_odom_ * pose_at(scan)});
     const Step step = prediction_.predict(stamp_ns(scan));
-    EXPECT_EQ(step.wheels_begin, scan == 5);
-    EXPECT_FALSE(step.wheels_changed || step.has_doubted_wheels) << scan;
+    EXPECT_EQ(step.wheels.have_begun, scan == 5);
+    EXPECT_FALSE(step.wheels.have_changed || step.wheels.are_doubted) << scan;
     EXPECT_EQ(step.source, StepSource::kOdometry);
     EXPECT_EQ(prediction_.explanations(step).size() == 1, scan == 5);
     EXPECT_THAT(step.after.odom_from_base, PoseNear(inverse(pose_at(4)) * pose_at(scan), 0.05));
@@ -143,7 +143,7 @@ TEST_F(OdometryPredictionTest, BelievesWheelsThatBeginToCountWhileTheVehicleDriv
   }
   wheel_from_odom_.x_m += 0.6;
   prediction_.add({stamp_ns(9), wheel_from_odom_ * pose_at(9)});
-  EXPECT_TRUE(prediction_.predict(stamp_ns(9)).wheels_changed) << "they have counted before";
+  EXPECT_TRUE(prediction_.predict(stamp_ns(9)).wheels.have_changed) << "they have counted before";
 }
 
 TEST_F(OdometryPredictionTest, HoldsTheVehicleToStandOnceWheelsHaveStoodForAWhile) {
@@ -152,7 +152,7 @@ TEST_F(OdometryPredictionTest, HoldsTheVehicleToStandOnceWheelsHaveStoodForAWhil
   for (int scan = 1; scan < 10; ++scan) {
     prediction_.add({stamp_ns(scan), wheel_from_odom_ * pose_at(0)});
     const Step step = prediction_.predict(stamp_ns(scan));
-    standing += step.is_standing;
+    standing += step.wheels.is_standing;
     prediction_.observe(step, without_match(step));
   }
   EXPECT_EQ(standing, 4) << "from 0.6 s on";
@@ -177,7 +177,7 @@ TEST_F(OdometryPredictionTest, GoesOnFromTheLastPoseWhereOdometryIsNotBelievedAn
   prediction_.add({stamp_ns(30), wheel_from_odom_ * Pose2{0.0, 0.0, 1.0} * pose_at(30)});
   const Step step = prediction_.predict(stamp_ns(30));
   EXPECT_EQ(step.source, StepSource::kReach);
-  EXPECT_TRUE(step.explanation_was_chosen) << "odometry spoke";
+  EXPECT_TRUE(step.wheels.are_overruled) << "odometry spoke";
   EXPECT_LT((step.after.odom_from_base.translation_m() - pose_at(29).translation_m()).norm(), 1.0);
 }
 
@@ -189,11 +189,11 @@ TEST_F(OdometryPredictionTest, TakesAStepFarBeyondTheUsualOnesForAJumpWhereTimeI
   wheel_from_odom_ = Pose2{40.0, 0.0, 0.0} * wheel_from_odom_;
   prediction_.add({stamp_ns(30), wheel_from_odom_ * pose_at(30)});
   const Step step = prediction_.predict(stamp_ns(30));
-  EXPECT_TRUE(step.has_doubted_wheels);
+  EXPECT_TRUE(step.wheels.are_doubted);
   EXPECT_LT((step.after.odom_from_base.translation_m() - pose_at(29).translation_m()).norm(), 1.0);
   prediction_.observe(step, matched_at(pose_at(30)));
   prediction_.add({stamp_ns(31), wheel_from_odom_ * pose_at(31)});
-  EXPECT_FALSE(prediction_.predict(stamp_ns(31)).has_doubted_wheels);
+  EXPECT_FALSE(prediction_.predict(stamp_ns(31)).wheels.are_doubted);
 }
 
 TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityOfTheMatchesWhereOdometryIsNotBelieved) {
@@ -202,15 +202,14 @@ TEST_F(OdometryPredictionTest, GoesOnAtTheVelocityOfTheMatchesWhereOdometryIsNot
   prediction_.add({stamp_ns(30), wheel_from_odom_ * pose_at(30)});
   const Step step = prediction_.predict(stamp_ns(30));
   EXPECT_EQ(step.source, StepSource::kVelocityAlone);
-  EXPECT_TRUE(step.explanation_was_chosen);
+  EXPECT_TRUE(step.wheels.are_overruled);
 }
 
-TEST_F(OdometryPredictionTest, MarksAGapAndExtrapolatesNoFartherThanThat) {
+TEST_F(OdometryPredictionTest, ExtrapolatesAGapNoFartherThanTheLongestStep) {
   prediction_.begin(0);
   for (int scan = 1; scan < 30; ++scan)
     prediction_.observe(prediction_.predict(stamp_ns(scan)), matched_at(pose_at(scan)));
   const Step step = prediction_.predict(stamp_ns(29) + 10 * 1'000'000'000LL);
-  EXPECT_TRUE(step.is_gap);
   EXPECT_NEAR(step.after.odom_from_base.x_m - pose_at(29).x_m,
               kSpeed_mps * LocalizerConfig{}.odometry.longest_step_s, 1.0);
 }

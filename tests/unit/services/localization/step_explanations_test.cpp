@@ -34,7 +34,7 @@ class StepExplanationsTest : public ::testing::Test {
     step.stamp_ns = static_cast<std::int64_t>(duration_s * 1e9);
     step.source = StepSource::kOdometry;
     step.odom_from_base_before = before_.uncertain_pose();
-    step.uncorrected_by_wheels = before_from_base;
+    step.wheels.uncorrected = before_from_base;
     step.before_from_base = before_from_base;
     step.after = sensing::moved_by_wheels(before_, {before_from_base, duration_s}, config_.motion);
     return step;
@@ -65,7 +65,7 @@ TEST_F(StepExplanationsTest, RoughWheelsPredictTheSamePoseLessSurely) {
   EXPECT_EQ(rough.after.odom_from_base, step.after.odom_from_base);
   EXPECT_GT(position_sigma_m(rough), 2.0 * position_sigma_m(step));
   EXPECT_LT(position_sigma_m(rough), 1.01 * config_.belief.rough_sigmas * position_sigma_m(step));
-  EXPECT_TRUE(rough.is_by_wheels() && rough.explanation_was_chosen);
+  EXPECT_TRUE(rough.is_by_wheels() && rough.wheels.are_overruled);
 }
 
 TEST_F(StepExplanationsTest, KnowNoOtherFactorsBeforeTheyAreLearned) {
@@ -98,11 +98,11 @@ TEST_F(StepExplanationsTest, WithoutOdometryForTheSecondTimeTheEstimateKnowsTheV
 
 TEST_F(StepExplanationsTest, WithoutOdometryNothingIsTakenToStand) {
   Step standing = by_wheels({});
-  standing.is_standing = true;
-  standing.stood_s = 3.0;
+  standing.wheels.is_standing = true;
+  standing.wheels.stood_s = 3.0;
   const Step other = explanations().other(standing);
-  EXPECT_FALSE(other.is_standing);
-  EXPECT_EQ(other.stood_s, 0.0);
+  EXPECT_FALSE(other.wheels.is_standing);
+  EXPECT_EQ(other.wheels.stood_s, 0.0);
 }
 
 TEST_F(StepExplanationsTest, WithoutOdometryStepsLikeThoseBeforeAreNarrowerThanReach) {
