@@ -246,9 +246,9 @@ void LocalizationService::localize(const WaitingScan& waiting) {
   if (drive_.last_done_ns) save_checkpoint(*drive_.last_done_ns);
   const app::Stopwatch stopwatch(context_.status().latency("localize"));
   const bool was_lost = localizer_.is_lost();
-  const std::uint64_t astray_before = localizer_.counters().astray;
-  const std::uint64_t retimed_before = localizer_.counters().retimed_odometry;
-  const std::uint64_t recalibrated_before = localizer_.counters().recalibrations;
+  const std::uint64_t astray_before = localizer_.counters().map.astray;
+  const std::uint64_t retimed_before = localizer_.counters().odometry.retimed;
+  const std::uint64_t recalibrated_before = localizer_.counters().odometry.recalibrations;
   auto localized = localizer_.localize(scan);
   tell_whereabouts(was_lost, astray_before);
   tell_of_lateness(retimed_before);
@@ -276,7 +276,8 @@ void LocalizationService::publish_finished_submaps() {
 app::CommandResult LocalizationService::finish_submap() {
   localizer_.finish();
   publish_finished_submaps();
-  return {app::CommandOutcome::kDone, std::to_string(localizer_.counters().submaps) + " submaps"};
+  return {app::CommandOutcome::kDone,
+          std::to_string(localizer_.counters().map.submaps) + " submaps"};
 }
 
 }  // namespace slammot::localization

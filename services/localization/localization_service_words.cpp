@@ -7,7 +7,7 @@
 namespace slammot::localization {
 
 void LocalizationService::tell_whereabouts(bool was_lost, std::uint64_t astray_before) {
-  if (localizer_.counters().astray > astray_before) {
+  if (localizer_.counters().map.astray > astray_before) {
     app::log_warn(
         "did not find itself: submap {} is tied to nothing until loop closing finds its place",
         localizer_.local_map().submap_id().value);
@@ -24,14 +24,14 @@ void LocalizationService::tell_whereabouts(bool was_lost, std::uint64_t astray_b
 }
 
 void LocalizationService::tell_of_lateness(std::uint64_t retimed_before) const {
-  if (localizer_.counters().retimed_odometry == retimed_before) return;
+  if (localizer_.counters().odometry.retimed == retimed_before) return;
   const double late_ms = 1e3 * localizer_.stamp_offset_s();
   app::log_warn("odometry is stamped {:.0f} ms {} against the scans: read so from now on",
                 std::abs(late_ms), late_ms > 0.0 ? "late" : "early");
 }
 
 void LocalizationService::tell_of_factors(std::uint64_t recalibrated_before) const {
-  if (localizer_.counters().recalibrations == recalibrated_before) return;
+  if (localizer_.counters().odometry.recalibrations == recalibrated_before) return;
   const sensing::WheelFactors factors = localizer_.odometry_conclusions().total;
   app::log_warn(
       "odometry is wrong: its ways count {:.2f} times, its turns {:.2f} times from now on",

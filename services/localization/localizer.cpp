@@ -27,10 +27,10 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
 
 flow::LocalizedScan Localizer::localize_in_order(const sensing::LaserScan& scan,
                                                  flow::LocalizedScan workspace) {
-  ++counters_.scans;
+  ++counters_.scans.localized;
   count(integration_.integrate_overdue(scan.stamp_ns, trust(), submaps_.map()), counters_);
   if (prediction().last())
-    counters_.submaps += submaps_.begin_next_if_due(estimator_.odom_from_base());
+    counters_.map.submaps += submaps_.begin_next_if_due(estimator_.odom_from_base());
   estimator_.begin_scan(intake_.accept(scan, prediction()));
   if (prediction().last()) place_next(scan);
   else begin(scan);
@@ -75,8 +75,7 @@ bool Localizer::place(const sensing::LaserScan& scan) {
 flow::LocalizedScan Localizer::describe_placed(const sensing::LaserScan& scan,
                                                flow::LocalizedScan workspace) {
   const OdometryPrediction::LastScan& last = *prediction().last();
-  return describe_and_remember(scan,
-                               {prediction().estimate(), last.speed_mps, last.yaw_rate_radps},
+  return describe_and_remember(scan, {prediction().estimate(), last.speed_mps, last.yaw_rate_radps},
                                estimator_.monitor().admission(), std::move(workspace));
 }
 
@@ -144,7 +143,7 @@ void Localizer::integrate(const flow::ScanLabels& labels) {
 
 void Localizer::finish() {
   count(integration_.integrate_all(trust(), submaps_.map()), counters_);
-  if (prediction().last()) counters_.submaps += submaps_.finish(estimator_.odom_from_base());
+  if (prediction().last()) counters_.map.submaps += submaps_.finish(estimator_.odom_from_base());
 }
 
 void Localizer::go_on_after(const flow::CorrectedSubmap& last) {

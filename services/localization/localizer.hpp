@@ -113,7 +113,7 @@ class Localizer final : public stages::LocalizationStage {
   const SweepFactor& sweep_factor() const { return estimator_.sweep().factor(); }
   const LocalizerCounters& counters() const { return counters_; }
   std::map<std::string, std::uint64_t> named_counters() const override { return named(counters_); }
-  std::uint64_t maps_begun_astray() const override { return counters_.astray; }
+  std::uint64_t maps_begun_astray() const override { return counters_.map.astray; }
   const LocalMap& local_map() const { return submaps_.map(); }
 
   /// Everything that is needed to go on after a crash; none before the first scan. Scans that wait

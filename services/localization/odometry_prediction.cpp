@@ -186,8 +186,9 @@ void OdometryPrediction::follow_wheels(const Pose2& by_wheels, Step& step) const
 void OdometryPrediction::go_on_at_velocity(const sensing::MotionEstimate& before,
                                            Step& step) const {
   step.explanation = sensing::StepExplanation::kOther;
-  step.source = step.wheels.wheel_from_base || state_.last->has_wheels ? StepSource::kVelocityThisOnce
-                                                                : StepSource::kVelocityAlone;
+  step.source = step.wheels.wheel_from_base || state_.last->has_wheels
+                    ? StepSource::kVelocityThisOnce
+                    : StepSource::kVelocityAlone;
   if (step.source == StepSource::kVelocityAlone)
     step.usual_duration_s = usual_duration_so_far_s(step, state_.belief, config_.belief);
   if (has_velocity(step, config_)) {

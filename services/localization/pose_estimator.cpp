@@ -30,7 +30,7 @@ void PoseEstimator::begin(const sensing::LaserScan& scan) {
 bool PoseEstimator::place(const ScanToPlace& placed) {
   Step step = prediction_.predict(placed.scan.stamp_ns);
   count(step, placed.counters);
-  placed.counters.gaps += step.duration_s > config_.odometry.longest_step_s;
+  placed.counters.odometry.gaps += step.duration_s > config_.odometry.longest_step_s;
   take_points(placed, step);
   const std::optional<ExplainedStep> explained = explain_or_doubt(placed, step);
   if (explained) step = explained->step;
@@ -49,7 +49,7 @@ void PoseEstimator::learn(const ScanToPlace& placed, const Step& step, const Sca
   const sensing::WheelFactors factors = prediction_.state().belief.factors;
   prediction_.observe(step, found);
   watch_.record(matched, factors, prediction_.state().belief.factors);
-  placed.counters.recalibrations = prediction_.state().belief.recalibrations;
+  placed.counters.odometry.recalibrations = prediction_.state().belief.recalibrations;
   covariance_.observe(step, found);
   sweep_.observe(placed.scan, step, points_, found, placed.submaps.map().surfels());
   placed.submaps.travel(matched_step(step, found));
@@ -59,8 +59,8 @@ void PoseEstimator::learn(const ScanToPlace& placed, const Step& step, const Sca
 ScanMatch PoseEstimator::match_or_relocalize(const ScanToPlace& placed, const Step& step,
                                              const matching::PointToLineResult* registered) {
   LocalMap& map = placed.submaps.map();
-  ScanMatch found = matcher_.match(
-      {points_.matched(), map.surfels(), step, placed.scan.sequence, registered});
+  ScanMatch found =
+      matcher_.match({points_.matched(), map.surfels(), step, placed.scan.sequence, registered});
   count(found, placed.counters);
   const auto verdict =
       monitor_.judge({found, step, prediction_.state().belief.usual_share, points_, map});
@@ -76,16 +76,16 @@ std::optional<ScanMatch> PoseEstimator::relocalize(const ScanToPlace& placed, co
   count(placed.integration.drop_doubted(), placed.counters);
   const RelocalizationResult result =
       relocalization_.find(monitor_.lost_scans(), step, points_, placed.submaps.map(), matcher_);
-  placed.counters.searches += result.has_searched;
-  placed.counters.found_again += result.found.has_value();
+  placed.counters.matches.searches += result.has_searched;
+  placed.counters.matches.found_again += result.found.has_value();
   return result.found;
 }
 
 /// Nothing that was seen before is of use here: the map begins with this scan, and the pose against
 /// it is exact. The vehicle has not been in the map before since it was lost.
 void PoseEstimator::begin_astray_map(const ScanToPlace& placed) {
-  ++placed.counters.astray;
-  placed.counters.submaps +=
+  ++placed.counters.map.astray;
+  placed.counters.map.submaps +=
       placed.submaps.begin_astray(odom_from_base(), *monitor_.lost_since_ns());
   prediction_.begin_map_here();
   monitor_.begin_map();
@@ -95,8 +95,8 @@ void PoseEstimator::begin_astray_map(const ScanToPlace& placed) {
 bool PoseEstimator::correct_odometry(const sensing::LaserScan& scan, LocalizerCounters& counters) {
   const bool is_rescaled = watch_.rescales(scan, points_, prediction_);
   const bool is_retimed = watch_.retimes(scan, points_, monitor_.is_lost(), prediction_);
-  counters.recalibrations = prediction_.state().belief.recalibrations;
-  counters.retimed_odometry += is_retimed;
+  counters.odometry.recalibrations = prediction_.state().belief.recalibrations;
+  counters.odometry.retimed += is_retimed;
   return is_rescaled || is_retimed;
 }
 

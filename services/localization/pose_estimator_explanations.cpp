@@ -25,11 +25,11 @@ std::optional<ExplainedStep> PoseEstimator::explain(const ScanToPlace& placed,
                         points_, placed.submaps.map(), take},
                        matcher_);
   prediction_.weigh(explained.weights);
-  placed.counters.searches += explained.searches;
+  placed.counters.matches.searches += explained.searches;
   if (explained.step.explanation == sensing::StepExplanation::kRoughWheels)
-    ++placed.counters.rough_odometry;
+    ++placed.counters.odometry.rough;
   if (by_wheels.is_by_wheels() && explained.step.explanation == sensing::StepExplanation::kOther)
-    ++placed.counters.disbelieved_odometry;
+    ++placed.counters.odometry.disbelieved;
   return explained;
 }
 
@@ -54,7 +54,7 @@ std::optional<ExplainedStep> PoseEstimator::explain_or_doubt(const ScanToPlace& 
   take_points(placed, *doubted);
   std::optional<ExplainedStep> stayed = explain(placed, *doubted);
   if (stayed && fit_of(stayed->registered) > least_fit) {
-    ++placed.counters.odometry_jumps;
+    ++placed.counters.odometry.jumps;
     return stayed;
   }
   prediction_.weigh(explained->weights);

@@ -19,9 +19,9 @@ bool ScanIntake::is_in_order(const sensing::LaserScan& scan, const OdometryPredi
                              LocalizerCounters& counters) {
   switch (order_.judge(scan, prediction.last_stamp_ns())) {
     case ScanOrder::Verdict::kUsable: return true;
-    case ScanOrder::Verdict::kDuplicate: ++counters.duplicate_scans; break;
-    case ScanOrder::Verdict::kOutOfOrder: ++counters.out_of_order_scans; break;
-    case ScanOrder::Verdict::kFarAhead: ++counters.far_ahead_scans; break;
+    case ScanOrder::Verdict::kDuplicate: ++counters.scans.duplicate; break;
+    case ScanOrder::Verdict::kOutOfOrder: ++counters.scans.out_of_order; break;
+    case ScanOrder::Verdict::kFarAhead: ++counters.scans.far_ahead; break;
   }
   return false;
 }
@@ -31,11 +31,11 @@ ScanIntake::Use ScanIntake::judge(const sensing::LaserScan& scan,
                                   LocalizerCounters& counters) {
   if (!is_in_order(scan, prediction, counters)) return Use::kDropped;
   if (frozen_.repeats(scan, prediction.wheel_from_base_at(scan.stamp_ns)) && prediction.last()) {
-    ++counters.frozen_scans;
+    ++counters.scans.frozen;
     return prediction.has_rare_scans() ? Use::kWithoutReadings : Use::kPredicted;
   }
   if (!measures_nothing(scan, prediction, map)) return Use::kLocalized;
-  ++counters.blank_scans;
+  ++counters.scans.blank;
   return Use::kPredicted;
 }
 

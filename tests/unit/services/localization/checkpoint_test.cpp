@@ -64,7 +64,7 @@ void expect_same_future(Localizer& a, Localizer& b, std::uint32_t first, std::ui
   }
   EXPECT_GT(submaps, 0);
   EXPECT_EQ(a.checkpoint(), b.checkpoint());
-  EXPECT_EQ(a.counters().scans, b.counters().scans);
+  EXPECT_EQ(a.counters().scans.localized, b.counters().scans.localized);
   EXPECT_EQ(a.calibration(), b.calibration());
 }
 
@@ -84,8 +84,8 @@ TEST(Checkpoint, GoesOnAlongABareWallAsIfNothingHadHappened) {
     ASSERT_EQ(after->odom_from_base.pose, before->odom_from_base.pose);
     ASSERT_EQ(after->odom_from_base.covariance, before->odom_from_base.covariance);
   }
-  EXPECT_EQ(restored.counters().sampled_matches, original.counters().sampled_matches);
-  EXPECT_GT(original.counters().sampled_matches, 60U);
+  EXPECT_EQ(restored.counters().matches.sampled, original.counters().matches.sampled);
+  EXPECT_GT(original.counters().matches.sampled, 60U);
 }
 
 TEST(Checkpoint, IsBridgedByTheOdometryThatCameBeforeItWasTakenUp) {
@@ -99,7 +99,7 @@ TEST(Checkpoint, IsBridgedByTheOdometryThatCameBeforeItWasTakenUp) {
   ASSERT_TRUE(localized);
   EXPECT_LT(slammot::testing::distance_m(localized->odom_from_base.pose, drive.odom_from_base(120)),
             0.3);
-  EXPECT_EQ(restored.counters().without_odometry, original.counters().without_odometry);
+  EXPECT_EQ(restored.counters().odometry.missing, original.counters().odometry.missing);
 }
 
 TEST(Checkpoint, LetsARestoredLocalizerGoOnBitByBit) {

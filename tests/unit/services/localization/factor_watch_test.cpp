@@ -95,7 +95,7 @@ FactoredDrive drive_with_factors(double way, double turn, bool watches) {
     if (const auto localized = localizer.localize(drive.scan(scan)))
       localizer.integrate(all_stationary(*localized));
   }
-  return {localizer.odometry_conclusions().total, localizer.counters().recalibrations};
+  return {localizer.odometry_conclusions().total, localizer.counters().odometry.recalibrations};
 }
 
 TEST(FactorWatch, FindsTheFactorOfTheWayWithinSeconds) {

@@ -81,10 +81,10 @@ LocalizerConfig config_of_watch() {
 TEST(LatenessWatch, FindsHowLateOrEarlyOdometryIsWhileDriving) {
   for (const double late_s : {-0.1, 0.1, 0.3}) {
     const DriveResult result = drive_with(always(late_s), 600, config_of_watch());
-    EXPECT_GE(result.counters.retimed_odometry, 1U) << late_s;
+    EXPECT_GE(result.counters.odometry.retimed, 1U) << late_s;
     EXPECT_TRUE(result.is_applied) << late_s;
     EXPECT_NEAR(result.offset_s, late_s, 0.1 * std::abs(late_s) + 0.01);
-    EXPECT_EQ(result.counters.astray, 0U);
+    EXPECT_EQ(result.counters.map.astray, 0U);
   }
 }
 
@@ -93,20 +93,20 @@ TEST(LatenessWatch, ChangesNothingWhereOdometryIsInTime) {
   off.odometry.watches_lateness = false;
   const DriveResult with = drive_with(always(0.0), 600, config_of_watch());
   const DriveResult without = drive_with(always(0.0), 600, off);
-  EXPECT_EQ(with.counters.retimed_odometry, 0U);
+  EXPECT_EQ(with.counters.odometry.retimed, 0U);
   EXPECT_EQ(with.error_m, without.error_m);
 }
 
 TEST(LatenessWatch, TakesItBackWhereOdometryComesInTimeAgain) {
   const DriveResult result =
       drive_with([](double time_s) { return time_s < 14.0 ? 0.15 : 0.0; }, 900, config_of_watch());
-  EXPECT_GE(result.counters.retimed_odometry, 2U);
+  EXPECT_GE(result.counters.odometry.retimed, 2U);
   EXPECT_NEAR(result.offset_s, 0.0, 0.015);
 }
 
 TEST(LatenessWatch, SaysNothingOfOdometryThatComesSeldom) {
   const DriveResult result = drive_with(always(0.0), 600, config_of_watch(), 5);
-  EXPECT_EQ(result.counters.retimed_odometry, 0U);
+  EXPECT_EQ(result.counters.odometry.retimed, 0U);
 }
 
 }  // namespace

@@ -127,8 +127,8 @@ TEST_F(LocalizeAgain, PutsTheScanIntoTheMapOnce) {
   const auto integrated = localizer_.checkpoint();
   localizer_.integrate(labels_of(*first));
   EXPECT_EQ(localizer_.checkpoint(), integrated);
-  EXPECT_EQ(localizer_.counters().scans, kMoves + 1);
-  EXPECT_EQ(localizer_.counters().fallback_integrations, 0U);
+  EXPECT_EQ(localizer_.counters().scans.localized, kMoves + 1);
+  EXPECT_EQ(localizer_.counters().map.fallback_integrations, 0U);
 }
 
 TEST_F(LocalizeAgain, ChangesNothingWhereNoMorePointsAreLeftOut) {
@@ -181,7 +181,7 @@ TEST_F(LocalizeAgain, IsNotForAVehicleThatDoesNotKnowWhereItIs) {
   elsewhere.world = slammot::testing::box({0.0, 0.0, 0.7}, 40.0, 31.0);
   const sensing::LaserScan strange = SimulatedDrive(elsewhere).scan(kMoves);
   const auto first = localizer_.localize(strange);
-  ASSERT_EQ(localizer_.counters().lost_matches, 1U);
+  ASSERT_EQ(localizer_.counters().matches.lost, 1U);
   EXPECT_FALSE(localizer_.localize_again(strange, labels_of(*first).labels));
   flow::ScanLabels some_move = all_stationary(*first);
   for (std::size_t i = 0; i < 60; ++i) some_move.labels[i] = PointLabel::kMoving;
@@ -207,7 +207,7 @@ TEST_F(LocalizeAgain, StillTakesAnotherScannersScanOfTheSameTimeAndDropsDuplicat
   ASSERT_TRUE(second);
   EXPECT_TRUE(localizer_.localize_again(of_another, labels_of(*second).labels));
   EXPECT_FALSE(localizer_.localize(of_another));
-  EXPECT_EQ(localizer_.counters().duplicate_scans, 2U);
+  EXPECT_EQ(localizer_.counters().scans.duplicate, 2U);
 }
 
 }  // namespace

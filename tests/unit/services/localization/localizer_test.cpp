@@ -51,8 +51,8 @@ TEST(Localizer, KnowsWhereItIsInARoom) {
   const DriveErrors errors = drive_through(localizer, drive, 0, 150);
   EXPECT_LT(errors.worst_m, 0.03);
   EXPECT_LT(errors.worst_rad, 0.005);
-  EXPECT_EQ(localizer.counters().scans, 150U);
-  EXPECT_EQ(localizer.counters().lost_matches, 0U);
+  EXPECT_EQ(localizer.counters().scans.localized, 150U);
+  EXPECT_EQ(localizer.counters().matches.lost, 0U);
 }
 
 /// Out of a street between two bare walls.
@@ -200,9 +200,9 @@ TEST(Localizer, GrowsUnsureAlongBareWallsAndStaysSureAcrossThem) {
     covariances.push_back(localized->odom_from_base.covariance);
     last = localized->odom_from_base.pose;
   }
-  EXPECT_GT(localizer.counters().sampled_matches, 280U);
-  EXPECT_EQ(localizer.counters().searches, 0U);  // along a bare wall one place is as good as
-                                                 // another
+  EXPECT_GT(localizer.counters().matches.sampled, 280U);
+  EXPECT_EQ(localizer.counters().matches.searches, 0U);  // along a bare wall one place is as good
+                                                         // as another
   // 8 m/s: after 40 m, 80 m and 120 m.
   EXPECT_GT(covariances[200](0, 0), 1.5 * covariances[100](0, 0));
   EXPECT_GT(covariances[299](0, 0), 1.2 * covariances[200](0, 0));
@@ -216,7 +216,7 @@ TEST(Localizer, SamplesNothingWhereEveryScanSaysEnough) {
   SimulatedDrive drive(along_a_street());
   Localizer localizer(small_map_config());
   drive_through(localizer, drive, 0, 100);
-  EXPECT_EQ(localizer.counters().sampled_matches, 0U);
+  EXPECT_EQ(localizer.counters().matches.sampled, 0U);
 }
 
 TEST(Localizer, KnowsWhereItIsAfterAHundredMetresOfStreetAndWhatIsWrongWithTheWheels) {
@@ -394,8 +394,8 @@ TEST(Localizer, TakesScansOfTwoScannersAtTheSameTime) {
     EXPECT_EQ(localized->speed_mps, front->speed_mps);
     EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(number), 0.1));
   }
-  EXPECT_EQ(localizer.counters().duplicate_scans, 0U);
-  EXPECT_EQ(localizer.counters().scans, 120U);
+  EXPECT_EQ(localizer.counters().scans.duplicate, 0U);
+  EXPECT_EQ(localizer.counters().scans.localized, 120U);
 }
 
 /// A scanner that looks back, half a period after the one that looks ahead.
@@ -431,9 +431,9 @@ TEST(Localizer, GoesOnWithOneOfTwoScannersWhenTheOtherFallsSilent) {
       ASSERT_TRUE(localized);
       localizer.integrate(all_stationary(*localized));
     }
-    EXPECT_LE(localizer.counters().lost_matches, 1U);  // the first scan to the rear sees nothing
+    EXPECT_LE(localizer.counters().matches.lost, 1U);  // the first scan to the rear sees nothing
                                                        // that is in the map yet
-    EXPECT_EQ(localizer.counters().out_of_order_scans, 0U);
+    EXPECT_EQ(localizer.counters().scans.out_of_order, 0U);
   }
 }
 
@@ -452,9 +452,9 @@ TEST(Localizer, DropsAndCountsDuplicatesAndScansOutOfOrder) {
     disturbed.integrate(all_stationary(*localized));
     disturbed.integrate(all_stationary(*localized));  // labels may come twice as well
   }
-  EXPECT_EQ(disturbed.counters().scans, 40U);
-  EXPECT_EQ(disturbed.counters().duplicate_scans, 40U);
-  EXPECT_EQ(disturbed.counters().out_of_order_scans, 39U);
+  EXPECT_EQ(disturbed.counters().scans.localized, 40U);
+  EXPECT_EQ(disturbed.counters().scans.duplicate, 40U);
+  EXPECT_EQ(disturbed.counters().scans.out_of_order, 39U);
 }
 
 TEST(Localizer, IsNotMadeLateByAScanStampedFarInTheFuture) {
@@ -476,8 +476,8 @@ TEST(Localizer, IsNotMadeLateByAScanStampedFarInTheFuture) {
     ASSERT_TRUE(localized) << scan;
     EXPECT_EQ(localized->odom_from_base.pose, expected->odom_from_base.pose);
   }
-  EXPECT_EQ(disturbed.counters().far_ahead_scans, 1U);
-  EXPECT_EQ(disturbed.counters().out_of_order_scans, 0U);
+  EXPECT_EQ(disturbed.counters().scans.far_ahead, 1U);
+  EXPECT_EQ(disturbed.counters().scans.out_of_order, 0U);
 }
 
 TEST(Localizer, WorksWithoutAnyOdometry) {
@@ -487,7 +487,7 @@ TEST(Localizer, WorksWithoutAnyOdometry) {
   const DriveErrors errors = drive_through(localizer, drive, 0, 150, false);
   EXPECT_LT(errors.worst_m, 0.05);
   EXPECT_LT(errors.worst_rad, 0.01);
-  EXPECT_EQ(localizer.counters().without_odometry, 149U);
+  EXPECT_EQ(localizer.counters().odometry.missing, 149U);
 }
 
 TEST(Localizer, WorksWithoutAnyOdometryWhenTheLogBeginsInFullDrive) {
@@ -526,7 +526,7 @@ void expect_not_to_follow(const Pose2& jump, SimulatedDrive drive, std::uint32_t
     localizer.integrate(all_stationary(*localized));
     EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), within_m));
   }
-  EXPECT_EQ(localizer.counters().odometry_jumps, 1U);
+  EXPECT_EQ(localizer.counters().odometry.jumps, 1U);
 }
 
 TEST(Localizer, GoesOnAtConstantVelocityWhenOdometryJumps) {
@@ -557,7 +557,7 @@ TEST(Localizer, IsNotMovedByJumpsOfOdometryOfAnySizeAlsoSeveralInARow) {
       EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.04))
           << scan << " after jumps of " << jump.x_m << " " << jump.y_m << " " << jump.heading_rad;
     }
-    EXPECT_EQ(localizer.counters().odometry_jumps, 4U);
+    EXPECT_EQ(localizer.counters().odometry.jumps, 4U);
   }
 }
 
@@ -570,7 +570,7 @@ TEST(Localizer, BelievesWheelsThatKeepSayingThatTheVelocityHasChanged) {
   SimulatedDrive drive(setup);
   Localizer localizer(small_map_config());
   EXPECT_LT(drive_through(localizer, drive, 0, 60).worst_m, 0.05);
-  EXPECT_EQ(localizer.counters().odometry_jumps, 1U);
+  EXPECT_EQ(localizer.counters().odometry.jumps, 1U);
 }
 
 TEST(Localizer, TakesNoOdometryWhereItIsToldNotTo) {
@@ -579,7 +579,7 @@ TEST(Localizer, TakesNoOdometryWhereItIsToldNotTo) {
   SimulatedDrive drive(round_in_a_room());
   Localizer localizer(config);
   drive_through(localizer, drive, 0, 20);
-  EXPECT_EQ(localizer.counters().without_odometry, 19U);
+  EXPECT_EQ(localizer.counters().odometry.missing, 19U);
 }
 
 /// Through a hall at 3 m/s, with a bend that begins and ends at once.
@@ -611,7 +611,7 @@ TEST(Localizer, FollowsABendWithoutOdometryThatBeginsAndEndsAtOnce) {
   SimulatedDrive drive(through_a_hall());
   Localizer localizer(config);
   EXPECT_LT(drive_through(localizer, drive, 0, 300).worst_rad, 0.01);
-  EXPECT_EQ(localizer.counters().lost_matches, 0U);
+  EXPECT_EQ(localizer.counters().matches.lost, 0U);
 }
 
 /// A vehicle that stops behind a car that stands and, seconds later, drives off before it does.
@@ -678,7 +678,7 @@ TEST(Localizer, BridgesTwoSecondsWithoutScans) {
     drive_through(localizer, drive, 0, 50, with_odometry);
     const DriveErrors errors = drive_through(localizer, drive, 71, 120, with_odometry);
     EXPECT_LT(errors.worst_m, 0.05) << with_odometry;
-    EXPECT_EQ(localizer.counters().gaps, 1U);
+    EXPECT_EQ(localizer.counters().odometry.gaps, 1U);
   }
 }
 
@@ -698,7 +698,7 @@ TEST(Localizer, FollowsTheWheelsWhenTheScannerSeesNextToNothing) {
     localizer.integrate(all_stationary(*localized));
     EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.03));
   }
-  EXPECT_EQ(localizer.counters().blank_scans, 10U);
+  EXPECT_EQ(localizer.counters().scans.blank, 10U);
   EXPECT_LT(drive_through(localizer, drive, 60, 90).worst_m, 0.03);
 }
 
@@ -717,8 +717,8 @@ TEST(Localizer, FollowsTheWheelsWhileTheScannerHangs) {
       localizer.integrate(all_stationary(*localized));
       EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.03));
     }
-    EXPECT_EQ(localizer.counters().frozen_scans, 10U) << period_s;
-    EXPECT_EQ(localizer.counters().blank_scans, 0U) << period_s;
+    EXPECT_EQ(localizer.counters().scans.frozen, 10U) << period_s;
+    EXPECT_EQ(localizer.counters().scans.blank, 0U) << period_s;
     EXPECT_LT(drive_through(localizer, drive, 60, 90).worst_m, 0.03) << period_s;
   }
 }
@@ -736,7 +736,7 @@ TEST(Localizer, TakesScansOfNonsense) {
   scan.range_m.clear();
   EXPECT_FALSE(localizer.localize(scan));
   scan = drive.scan(22);
-  EXPECT_EQ(localizer.counters().blank_scans, 2u);
+  EXPECT_EQ(localizer.counters().scans.blank, 2u);
   EXPECT_LT(drive_through(localizer, drive, 23, 40).worst_m, 0.05);
 }
 
@@ -762,12 +762,12 @@ TEST(Localizer, PredictsThePoseOfABlankScan) {
         EXPECT_TRUE(localizer.awaits_labels());
         localizer.integrate(testing::all_stationary(*predicted));
         EXPECT_FALSE(localizer.awaits_labels());
-        EXPECT_EQ(localizer.counters().withheld_scans, 0u);
+        EXPECT_EQ(localizer.counters().map.withheld_scans, 0u);
       }
       each->integrate(testing::all_stationary(*each->localize(drive.scan(scan))));
     }
   }
-  EXPECT_EQ(localizer.counters().blank_scans, 2u);
+  EXPECT_EQ(localizer.counters().scans.blank, 2u);
   EXPECT_EQ(localizer.checkpoint().size(), without.checkpoint().size());
   const auto after = drive_one(localizer, drive, 22);
   without.add_odometry(drive.odometry(22));
@@ -866,7 +866,7 @@ TEST_F(WithAMover, LabelsDecideWhichMapAPointGoesTo) {
   }
   EXPECT_EQ(traces_in_the_map(), 0);
   EXPECT_GT(moving_evidence(), 1000.0);
-  EXPECT_EQ(localizer_.counters().fallback_integrations, 0U);
+  EXPECT_EQ(localizer_.counters().map.fallback_integrations, 0U);
 }
 
 TEST_F(WithAMover, LabelledStationaryItLeavesTraces) {
@@ -881,7 +881,7 @@ TEST_F(WithAMover, StaysOutOfTheMapWhenLabelsNeverCome) {
   localizer_.finish();
   EXPECT_EQ(traces_in_the_map(), 0);
   EXPECT_EQ(moving_evidence(), 0.0);
-  EXPECT_EQ(localizer_.counters().fallback_integrations, 25U);
+  EXPECT_EQ(localizer_.counters().map.fallback_integrations, 25U);
 }
 
 TEST_F(WithAMover, GoesToTheMovingMapByDetectionsLabelsWhenTrackingsNeverCome) {
@@ -916,7 +916,7 @@ TEST_F(WithAMover, IntegratesAScanWhoseLabelsWereLostWhenTheNextOnesCome) {
     const auto localized = localizer_.localize(range);
     if (scan % 2 == 1) localizer_.integrate(labels(*localized, on_mover));
   }
-  EXPECT_EQ(localizer_.counters().fallback_integrations, 10U);
+  EXPECT_EQ(localizer_.counters().map.fallback_integrations, 10U);
   EXPECT_EQ(traces_in_the_map(), 0);
 }
 
@@ -934,7 +934,7 @@ TEST_F(WithAMover, ComesBackIntoTheMapWhenTrackingFindsItStands) {
                                                                  // never were
   localizer_.integrate(later);
   EXPECT_GT(traces_in_the_map(), 0);
-  EXPECT_EQ(localizer_.counters().restored_points, restored.beams.size());
+  EXPECT_EQ(localizer_.counters().map.restored_points, restored.beams.size());
   const std::vector<std::int8_t> once = localizer_.local_map().evidence().lasting_cells();
   auto again = labels(*localizer_.localize(scan_with_mover(22).first), scan_with_mover(22).second);
   again.labels.clear();  // of no scan
@@ -955,7 +955,7 @@ TEST_F(WithAMover, IsNotGivenBackFromFartherThanIsMapped) {
     if (on_mover[i]) later.restored.front().beams.push_back(static_cast<std::uint16_t>(i));
   }
   localizer.integrate(later);
-  EXPECT_EQ(localizer.counters().restored_points, 0U);
+  EXPECT_EQ(localizer.counters().map.restored_points, 0U);
 }
 
 TEST_F(WithAMover, IsTakenOutOfTheMapWhereItDrives) {
@@ -1053,10 +1053,10 @@ TEST_F(WithAMover, IsNoLongerExpectedWhenTrackingHasFallenSilent) {
   objects.objects = {everything};
   localizer_.expect(objects);
   drive_through(localizer_, drive_, 20, 25);
-  const auto unmatched = localizer_.counters().too_few_echoes;
+  const auto unmatched = localizer_.counters().matches.too_few_echoes;
   EXPECT_GT(unmatched, 0U);
   drive_through(localizer_, drive_, 50, 60);
-  EXPECT_EQ(localizer_.counters().too_few_echoes, unmatched);
+  EXPECT_EQ(localizer_.counters().matches.too_few_echoes, unmatched);
 }
 
 /// A street with a new map every 20 m.
@@ -1103,7 +1103,7 @@ TEST_F(OverSeveralSubmaps, EachBeginsWhereTheOneBeforeEndsAndIsTiedToIt) {
   Localizer localizer(config());
   const auto submaps = submaps_of_drive(localizer);
   ASSERT_GE(submaps.size(), 4U);
-  EXPECT_EQ(localizer.counters().submaps, submaps.size());
+  EXPECT_EQ(localizer.counters().map.submaps, submaps.size());
   EXPECT_EQ(submaps[0].previous_from_submap.pose, Pose2{});
   for (std::size_t i = 0; i < submaps.size(); ++i) {
     EXPECT_EQ(submaps[i].submap_id.value, i);

@@ -127,7 +127,7 @@ constexpr double kGood_rad = 0.015;
 void expect_good(const DriveResult& result, double good_m = kGood_m) {
   EXPECT_LT(result.worst_m, good_m);
   EXPECT_LT(result.worst_rad, kGood_rad);
-  EXPECT_EQ(result.counters.astray, 0U);
+  EXPECT_EQ(result.counters.map.astray, 0U);
 }
 
 /// A fault that wheels have from the fifth second on.
@@ -162,9 +162,9 @@ TEST(OdometryFaults, AreNotFoundWhereThereAreNone) {
   for (const DriveSetup& setup : {car(), robot_outdoors(), robot_in_a_room()}) {
     const DriveResult result = drive_with(setup, sound, kScans);
     expect_good(result);
-    EXPECT_EQ(result.counters.disbelieved_odometry, 0U);
-    EXPECT_EQ(result.counters.recalibrations, 0U);
-    EXPECT_LT(result.counters.rough_odometry, 5U);
+    EXPECT_EQ(result.counters.odometry.disbelieved, 0U);
+    EXPECT_EQ(result.counters.odometry.recalibrations, 0U);
+    EXPECT_LT(result.counters.odometry.rough, 5U);
   }
 }
 
@@ -228,7 +228,7 @@ TEST(OdometryFaultsOfASlowScanner, DoNotCarryThePoseAwayWhereWheelsLeapSomeMetre
   });
   const DriveResult result = drive_with(setup, leap, 30);
   expect_good(result);
-  EXPECT_EQ(result.counters.odometry_jumps, 1U);
+  EXPECT_EQ(result.counters.odometry.jumps, 1U);
 }
 
 /// Two drives in one log.
@@ -243,7 +243,7 @@ TEST(OdometryFaultsOfASlowScanner, BeginAMapAtOnceWhereTheDriveGoesOnElsewhere) 
   const auto anew = during(kSecondDrive_s - 0.25, kSecondDrive_s + 0.25, [](const Pose2&, double) {
     return Pose2{-60.0, 20.0, 1.0};
   });
-  EXPECT_EQ(drive_with(setup, anew, kScans).counters.astray, 1U);
+  EXPECT_EQ(drive_with(setup, anew, kScans).counters.map.astray, 1U);
 }
 
 INSTANTIATE_TEST_SUITE_P(TwoScansASecond, OdometryFaultsOfRobots,

@@ -79,15 +79,15 @@ TEST_F(Recovery, FindsItselfInTheLocalMapWhereverItWasCarried) {
     drive(setup, 0, kCarriedAt + 60);
     EXPECT_THAT(newest(), PoseNear(SimulatedDrive(setup).odom_from_base(kCarriedAt + 59), 0.05))
         << carried.x_m << " " << carried.y_m << " " << carried.heading_rad;
-    EXPECT_GE(counters().found_again, 1U);
-    EXPECT_EQ(counters().astray, 0U);
+    EXPECT_GE(counters().matches.found_again, 1U);
+    EXPECT_EQ(counters().map.astray, 0U);
   }
 }
 
 TEST_F(Recovery, KeepsTheMapCleanWhileItIsLost) {
   const DriveSetup setup = carried_away({3.0, 1.0, 0.7});
   drive(setup, 0, kCarriedAt + 60);
-  EXPECT_GT(counters().withheld_scans, 0U);
+  EXPECT_GT(counters().map.withheld_scans, 0U);
   int smeared = 0;
   const auto& surfels = localizer_.local_map().surfels();
   const Pose2 world_from_odom = SimulatedDrive(setup).setup().world_from_base_at(0.0);
@@ -115,7 +115,7 @@ TEST_F(Recovery, BeginsAMapTiedByNextToNothingWhereItKnowsNothing) {
                                {{-6.0, -4.0}, {7.0, -5.0}, {5.0, 6.0}, {0.0, 3.0}, {-7.0, 5.0}}),
                            carried_away({300.0, 0.0, 0.0}).world_from_base_at(35.0))));
   drive(elsewhere, 0, kCarriedAt + 100);
-  EXPECT_EQ(counters().astray, 1U);
+  EXPECT_EQ(counters().map.astray, 1U);
   const auto first = localizer_.take_finished_submap();
   ASSERT_TRUE(first);
   localizer_.finish();
@@ -135,7 +135,8 @@ TEST_F(Recovery, BeginsAMapTiedByNextToNothingWhereItKnowsNothing) {
 
 TEST_F(Recovery, IsNotLostInADriveLikeAnyOther) {
   drive(carried_away({}), 0, kCarriedAt + 20);
-  EXPECT_EQ(counters().found_again + counters().astray + counters().withheld_scans, 0U);
+  EXPECT_EQ(counters().matches.found_again + counters().map.astray + counters().map.withheld_scans,
+            0U);
 }
 
 TEST_F(Recovery, ComesBackAfterAMinuteInTheDark) {
