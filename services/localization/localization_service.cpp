@@ -64,8 +64,8 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
       submaps_(context),
       checkpoint_(checkpoint_path(context.options())) {
   if (settings.continues_map) {
-    stored_map_.emplace(std::llround(settings.map_patience_s * 1e9), config_.map.cell_size_m,
-                        monotonic_ns());
+    drives_.stored_map.emplace(std::llround(settings.map_patience_s * 1e9), config_.map.cell_size_m,
+                               monotonic_ns());
     is_stored_map_known();  // so that nobody takes it for ready before the first turn
   }
   drives_.ids.assign(settings.drive_ids.begin(), settings.drive_ids.end());
@@ -74,7 +74,7 @@ LocalizationService::LocalizationService(app::ServiceContext& context, const Set
   context.every(kTurn, [this] {
     waiting_.count_turn();
     admit(drives_.gate.judge_held(monotonic_ns()));
-    if (stored_map_ && !drive_.map_id) is_stored_map_known();
+    if (drives_.stored_map && !drive_.map_id) is_stored_map_known();
     localize_waiting();
   });
   context.before_report([this] { context_.status().set_counters(named(localizer_.counters())); });
@@ -212,7 +212,7 @@ void LocalizationService::take(const slammot_GraphCorrection& sample) {
     context_.warn("faulty_graph_correction",
                   "dropped a graph correction: " + std::string(added.fault));
   if (!added.correction) return;
-  if (stored_map_) stored_map_->is_placed(*added.correction, monotonic_ns());
+  if (drives_.stored_map) drives_.stored_map->is_placed(*added.correction, monotonic_ns());
   if (!drive_.map_id) corrections_.early[added.correction->map_id] = std::move(*added.correction);
   else if (added.correction->map_id == *drive_.map_id) correct(*added.correction);
 }
@@ -221,8 +221,8 @@ void LocalizationService::take(const slammot_StoredMap& sample) {
   const auto stored = wire::decode(sample);
   if (!is_good(stored, "stored_map")) return;
   if (stored->map_id == drive_.map_id) submaps_.release(*stored);
-  if (!stored_map_) return;
-  stored_map_->is_stored(*stored, monotonic_ns());
+  if (!drives_.stored_map) return;
+  drives_.stored_map->is_stored(*stored, monotonic_ns());
   localize_waiting();
 }
 

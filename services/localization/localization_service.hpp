@@ -73,6 +73,7 @@ class LocalizationService {
     DriveGate gate;                             ///< Of those that arrive.
     std::optional<std::int64_t> last_stray_ns;  ///< By the monotonic clock.
     std::deque<std::uint64_t> ids;              ///< Of the drives to come.
+    std::optional<StoredMapWatch> stored_map;   ///< In which they go on; none: each begins its own.
   };
 
   void read_inputs(app::ServiceContext& context);
@@ -132,7 +133,6 @@ class LocalizationService {
   RecentOdometry recent_odometry_;
   Drives drives_;
   Drive drive_;
-  std::optional<StoredMapWatch> stored_map_;  ///< None where each drive begins its own map.
 };
 
 }  // namespace slammot::localization

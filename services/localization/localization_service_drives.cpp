@@ -15,7 +15,7 @@ bool LocalizationService::knows_map_of(const WaitingScan& waiting) {
   const bool is_new =
       !drive_.map_id || drives_.watch.look_at(waiting.scan.scanner.scanner_id, waiting.drive_id) ==
                             DriveWatch::Scan::kOfNewDrive;
-  if (!stored_map_ || !is_new) return true;
+  if (!drives_.stored_map || !is_new) return true;
   if (drive_.map_id) end_drive();
   else hand_over_earlier_drive();
   if (is_stored_map_known()) return true;
@@ -28,7 +28,7 @@ bool LocalizationService::knows_map_of(const WaitingScan& waiting) {
 
 /// Reports in the status what is awaited, or what is wrong with the stored map.
 bool LocalizationService::is_stored_map_known() {
-  const StoredMapWatch::Answer answer = stored_map_->answer(monotonic_ns());
+  const StoredMapWatch::Answer answer = drives_.stored_map->answer(monotonic_ns());
   const bool waits = answer.verdict == StoredMapWatch::Verdict::kWait;
   context_.status().set_starting(waits);
   if (waits)
@@ -132,16 +132,18 @@ void LocalizationService::take_up(const SavedSession& session) {
 /// The vehicle was switched off in the middle of a submap of the stored map: the checkpoint holds
 /// it, and it is the next one of that map.
 void LocalizationService::hand_over_earlier_drive() {
-  if (!drive_.before || !stored_map_->map()) return;
+  if (!drive_.before || !drives_.stored_map->map()) return;
   const SavedSession session = *std::exchange(drive_.before, std::nullopt);
   Localizer localizer(config_);
-  if (session.map_id != stored_map_->map()->map_id || !localizer.restore(session.localizer)) return;
+  if (session.map_id != drives_.stored_map->map()->map_id || !localizer.restore(session.localizer))
+    return;
   localizer.finish();
   auto submap = localizer.take_finished_submap();
-  if (!submap || submap->submap_id.value != stored_map_->map()->last_submap_id.value + 1) return;
+  if (!submap || submap->submap_id.value != drives_.stored_map->map()->last_submap_id.value + 1)
+    return;
   submap->map_id = session.map_id;
   submaps_.publish(*submap);
-  stored_map_->is_on_its_way(session.map_id, submap->submap_id, monotonic_ns());
+  drives_.stored_map->is_on_its_way(session.map_id, submap->submap_id, monotonic_ns());
   app::log_info("hands over submap {}, with which the drive before ended", submap->submap_id.value);
 }
 
@@ -150,7 +152,7 @@ void LocalizationService::end_drive() {
   localizer_.finish();
   publish_finished_submaps();
   if (const auto newest = submaps_.newest())
-    stored_map_->is_on_its_way(*drive_.map_id, *newest, monotonic_ns());
+    drives_.stored_map->is_on_its_way(*drive_.map_id, *newest, monotonic_ns());
 }
 
 void LocalizationService::begin_drive() {
@@ -163,8 +165,8 @@ void LocalizationService::begin_drive() {
   drive_.is_back = false;
   checkpoint_.begin_drive();
   drive_.odom_id = new_id();
-  const auto verdict = stored_map_ ? stored_map_->answer(monotonic_ns()).verdict
-                                   : StoredMapWatch::Verdict::kNothingStored;
+  const auto verdict = drives_.stored_map ? drives_.stored_map->answer(monotonic_ns()).verdict
+                                          : StoredMapWatch::Verdict::kNothingStored;
   if (verdict == StoredMapWatch::Verdict::kGoOn) return go_on_in_stored_map();
   if (verdict == StoredMapWatch::Verdict::kCannot)
     ++context_.status().counter("begun_without_stored_map");
@@ -192,12 +194,12 @@ void LocalizationService::begin_map() {
 
 /// The graph is corrected as for the drive before, so that only later corrections are new.
 void LocalizationService::go_on_in_stored_map() {
-  const flow::StoredMap& stored = *stored_map_->map();
+  const flow::StoredMap& stored = *drives_.stored_map->map();
   if (drive_.map_id != stored.map_id) submaps_.withdraw();
   drive_.map_id = stored.map_id;
   drive_.first_submap = {stored.last_submap_id.value + 1};
-  localizer_.correct(stored_map_->graph());
-  localizer_.go_on_after(stored_map_->graph().submaps.back());
+  localizer_.correct(drives_.stored_map->graph());
+  localizer_.go_on_after(drives_.stored_map->graph().submaps.back());
   tell_whether_it_is_tied(false);
   ++context_.status().counter("continued_maps");
   app::log_info("goes on in map {} after its {} submaps", drive_.map_id->value, stored.submaps);

@@ -59,7 +59,7 @@ TrackingService::TrackingService(app::ServiceContext& context, const Settings& s
   context.read(
       dds::topics::kSegmentedScan, app::Input::kSteady,
       [this](const auto& sample) { take(sample); }, dds::History::kRestart);
-  context.status().set_starting(waits_for_stored_tracks_);  // a source of scans waits for it
+  context.status().set_starting(handover_.is_awaited);  // a source of scans waits for it
   context.after(kStoredTracksPatience, [this] { begin(); });
   context.after(app::RepeatWatch::kBegins, [this] { answer_what_is_owed(); });
   context.before_report([this] { context_.status().set_counters(named(tracker_.counters())); });
@@ -71,14 +71,18 @@ void TrackingService::prepare(app::ServiceContext& context) {
   context.prepare_to_write(dds::topics::kScanLabels);
 }
 
+bool TrackingService::is_newest(const flow::TrackedObjects& stored) const {
+  return !stored.objects.empty() &&
+         (!handover_.tracks || stored.stamp_ns > handover_.tracks->stamp_ns);
+}
+
 /// Of several that were kept the newest counts; once tracking goes on they are echoes of its own.
 void TrackingService::take_stored(const slammot_TrackedObjects& sample) {
-  if (!waits_for_stored_tracks_) return;
+  if (!handover_.is_awaited) return;
   auto objects = wire::decode(sample);
   if (!objects)
     return context_.warn("faulty_tracks", "dropped stored tracks: " + std::string(objects.fault()));
-  const bool is_newest = !stored_ || objects->stamp_ns > stored_->stamp_ns;
-  if (!objects->objects.empty() && is_newest) stored_ = std::move(*objects);
+  if (is_newest(*objects)) handover_.tracks = std::move(*objects);
   context_.after(0s, [this] { begin(); });  // after all that were kept have been taken
 }
 
@@ -88,17 +92,17 @@ void TrackingService::take(const slammot_SegmentedScan& sample) {
     return context_.warn("faulty_segmented_scan",
                          "dropped a segmented scan: " + std::string(scan.fault()));
   ScanOnTheBus on_the_bus{std::move(*scan), sample.scan_published_ns};
-  if (!waits_for_stored_tracks_) return track(on_the_bus);
-  early_.push_back(std::move(on_the_bus));
-  if (early_.size() > kMostEarlyScans) early_.pop_front();
+  if (!handover_.is_awaited) return track(on_the_bus);
+  handover_.early_scans.push_back(std::move(on_the_bus));
+  if (handover_.early_scans.size() > kMostEarlyScans) handover_.early_scans.pop_front();
 }
 
 void TrackingService::begin() {
-  if (!waits_for_stored_tracks_) return;
-  waits_for_stored_tracks_ = false;
+  if (!handover_.is_awaited) return;
+  handover_.is_awaited = false;
   context_.status().set_starting(false);
-  for (const ScanOnTheBus& scan : early_) track(scan);
-  early_.clear();
+  for (const ScanOnTheBus& scan : handover_.early_scans) track(scan);
+  handover_.early_scans.clear();
 }
 
 /// Of the process before. Whether the drive goes on is seen at the first scan.
@@ -109,7 +113,7 @@ void TrackingService::take_up_journal() {
   if (!session_) return app::log_warn("the journal is of another version: it is not used");
   journal_.saved_ns = saved->stamp_ns;
   journal_.is_unproven = true;
-  waits_for_stored_tracks_ = false;
+  handover_.is_awaited = false;
 }
 
 /// True if no scan is missing between the saved state and this one: tracks that were begun
@@ -144,15 +148,16 @@ void TrackingService::begin_drive(const flow::SegmentedScan& first) {
   tracker_ = Tracker(config_);
   session_ = Session{frame_of(first), {}};
   journal_.saved_ns.reset();
-  if (stored_ && frame_of(*stored_) == session_->frame) take_up_stored(first);
-  stored_.reset();
+  if (handover_.tracks && frame_of(*handover_.tracks) == session_->frame)
+    take_up(*handover_.tracks, first.stamp_ns);
+  handover_.tracks.reset();
 }
 
-void TrackingService::take_up_stored(const flow::SegmentedScan& first) {
-  if (!is_near(first.stamp_ns, stored_->stamp_ns)) return;
-  tracker_.resume(*stored_);
+void TrackingService::take_up(const flow::TrackedObjects& stored, std::int64_t first_stamp_ns) {
+  if (!is_near(first_stamp_ns, stored.stamp_ns)) return;
+  tracker_.resume(stored);
   ++context_.status().counter("taken_up");
-  app::log_info("takes up {} stored tracks", stored_->objects.size());
+  app::log_info("takes up {} stored tracks", stored.objects.size());
 }
 
 void TrackingService::track(const ScanOnTheBus& on_the_bus) {

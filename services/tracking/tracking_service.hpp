@@ -50,12 +50,20 @@ class TrackingService {
     std::int64_t published_ns = 0;  ///< The laser scan, by the system clock of its source.
   };
 
+  /// What waits for tracks that another process has published, and these.
+  struct Handover {
+    bool is_awaited = true;
+    std::optional<flow::TrackedObjects> tracks = {};  ///< Newest of those that came.
+    std::deque<ScanOnTheBus> early_scans = {};        ///< Came before.
+  };
+
   void take(const slammot_SegmentedScan& sample);
   void take_stored(const slammot_TrackedObjects& sample);
   void begin();
   void begin_drive(const flow::SegmentedScan& first);
   void take_up_journal();
-  void take_up_stored(const flow::SegmentedScan& first);
+  void take_up(const flow::TrackedObjects& stored, std::int64_t first_stamp_ns);
+  bool is_newest(const flow::TrackedObjects& stored) const;
   void prove_journal(const flow::SegmentedScan& first);
   bool follows_journal(const flow::SegmentedScan& first) const;
   void answer_again(const ScanOnTheBus& repeated, const TrackingResult& last);
@@ -75,9 +83,7 @@ class TrackingService {
   app::RepeatWatch repeats_;
   Journal journal_;
   std::optional<Session> session_;  ///< None before the first scan.
-  bool waits_for_stored_tracks_ = true;
-  std::optional<flow::TrackedObjects> stored_;
-  std::deque<ScanOnTheBus> early_;  ///< Came while waiting for stored tracks.
+  Handover handover_;
 };
 
 }  // namespace slammot::tracking
