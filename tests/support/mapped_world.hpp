@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "services/localization/local_map.hpp"
@@ -58,6 +59,8 @@ class MappedWorld {
   }
 
   const localization::LocalMap& map() const { return map_; }
+  /// For one who goes on mapping; none is left here.
+  localization::LocalMap take_map() { return std::move(map_); }
   const localization::LocalizerConfig& config() const { return config_; }
 
  private:
