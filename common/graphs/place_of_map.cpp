@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 namespace slammot::graphs {
