@@ -86,6 +86,22 @@ TEST(StationaryProcess, SaysHowFarItsMeanIsOffFromWhereSomethingStands) {
   EXPECT_LT(said_m2, 6.0 * off_m2);  // never too sure, and still surer than any single measurement
 }
 
+TEST(StationaryProcess, TellsWhiteNoiseByTheFadedMeanOfSquaredSteps) {
+  StationaryProcess series;
+  double weight = 0.0;
+  double squares_m2 = 0.0;
+  for (int i = 0; i < 25; ++i) {
+    const double x_m = 0.1 * (i % 2);
+    series = observed(series, {x_m, 0.0}, i == 0 ? 0.0 : kPeriodS, kMemoryS);
+    if (i == 0) continue;
+    const double step_weight = std::exp(-kPeriodS * (24.0 - i) / kMemoryS);
+    weight += step_weight;
+    squares_m2 += step_weight * 0.5 * 0.1 * 0.1;
+  }
+  EXPECT_NEAR(series.step_weight, weight, 1e-9);
+  EXPECT_NEAR(series.differences_m2(0, 0) / series.step_weight, squares_m2 / weight, 1e-9);
+}
+
 TEST(StationaryProcess, IsNoSurerForMoreMeasurementsOfSomethingThatMoves) {
   const Vector2d velocity_mps{1.0, 0.0};
   const double said_m2 = series_at(velocity_mps, 60, 1).mean_covariance_m2().trace();

@@ -51,6 +51,12 @@ TEST(RegisterSurfels, ConvergesFromANoisyGuess) {
   EXPECT_LT(registration.rms_m, 0.03);
 }
 
+TEST(RegisterSurfels, PairsTwoAndAHalfTimesAsFarApartInTheFirstSteps) {
+  RegistrationConfig config;
+  config.fine_gate_m = 0.2;
+  EXPECT_DOUBLE_EQ(coarse_gate_m(config), 0.5);
+}
+
 TEST(RegisterSurfels, HasAnErrorWithinItsCovariance) {
   const Registration registration = registered(room(), {0.1, 0.1, -0.03});
   const Pose2& pose = registration.target_from_source.pose;

@@ -53,6 +53,14 @@ TEST(Blob, WithoutSidesIsSomewhereAboutAnEchoThatIsRarelyAnswered) {
   EXPECT_GT(sigma_m(0.75), 0.35);
 }
 
+TEST(Blob, IsSomewhereWithinAFifthOfItsSpan) {
+  std::vector<Vector2d> echoes;
+  for (double y = -0.5; y < 0.51; y += 0.02) echoes.emplace_back(10.0, y);
+  const Eigen::Matrix2d covariance_m2 =
+      measure_blob({}, observation_of(echoes), kConfig).covariance_m2;
+  EXPECT_NEAR(std::sqrt(covariance_m2(1, 1)), std::hypot(0.2, kConfig.sensor.shape_noise_m), 0.01);
+}
+
 TEST(Blob, WithoutSidesWasSeenWholeOnceNothingHasHiddenAnEndOfIt) {
   const std::vector<Vector2d> echoes = {{25.0, -0.2}, {25.0, 0.0}, {25.0, 0.2}};
   const Blob hidden =

@@ -43,6 +43,26 @@ TEST(ExtentUpdate, LiesAlongWhatIsLongerThanAnyFront) {
   EXPECT_GT(std::abs(std::sin(track.extent.footprint().heading_rad)), 0.9);
 }
 
+TEST(ExtentUpdate, LiesAlongTheCourseWhereThatIsKnownToAQuarterRadian) {
+  const TrackingConfig config;
+  constexpr double kCourse_rad = 0.3;
+  constexpr double kSpeed_mps = 4.0;
+  std::vector<Eigen::Vector2d> rear_m;
+  for (double y = -0.9; y < 0.95; y += 0.2) rear_m.emplace_back(20.0, y);
+  Observation observation;
+  observation.points_m = rear_m;
+  observation.beam_step_rad = 0.5 * M_PI / 180.0;
+  Track track = initiated({{1}, 0, observation, 0.0, 1e-4 * Eigen::Matrix2d::Identity()}, config);
+  const auto heading_rad = [&](double course_variance_rad2) {
+    restart_velocity(track.kinematics,
+                     kSpeed_mps * Eigen::Vector2d(std::cos(kCourse_rad), std::sin(kCourse_rad)),
+                     kSpeed_mps * std::sqrt(course_variance_rad2), config);
+    return box_along_course(track, observation, config).heading_rad;
+  };
+  EXPECT_NEAR(heading_rad(0.04), kCourse_rad, 1e-9);
+  EXPECT_GT(std::abs(std::sin(heading_rad(0.06) - kCourse_rad)), 0.1) << "by its shape";
+}
+
 TEST(ExtentUpdate, IsDrawnAnewWhereItWouldBeWiderThanAnythingThatGoesItsWay) {
   const TrackingConfig config;
   std::vector<Eigen::Vector2d> points;
