@@ -24,6 +24,18 @@ TEST(Track, ThatIsTooFastForLegsIsNobodyWhoWalksFromTheFirstScanOn) {
                                                                              // half a car away
 }
 
+TEST(Track, IsShiftedWithThePlacesWhereItBeganAndThatItCameFrom) {
+  Track track;
+  const Eigen::Vector2d by_m{0.4, -0.3};
+  const Eigen::Vector2d position_m = track.position_m();
+  const Eigen::Vector2d birth_m = track.history.birth.centre_m;
+  const Eigen::Vector2d anchor_m = track.existence.travel.anchor_m;
+  shift(track, by_m, TrackingConfig{});
+  EXPECT_TRUE(track.position_m().isApprox(position_m + by_m));
+  EXPECT_TRUE(track.history.birth.centre_m.isApprox(birth_m + by_m));
+  EXPECT_TRUE(track.existence.travel.anchor_m.isApprox(anchor_m + by_m));
+}
+
 TEST(Track, MayTurnTheFasterTheSmallerItIs) {
   const std::vector<Eigen::Vector2d> points{{20.0, -0.9}, {20.0, -0.3}, {20.0, 0.3}, {20.0, 0.9}};
   const auto variance_after_a_second = [&](double size_scale) {
