@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Cholesky>
+
 #include <gtest/gtest.h>
 
 #include "common/simulation/random.hpp"
