@@ -6,6 +6,8 @@
 #include <limits>
 #include <tuple>
 
+#include <Eigen/LU>
+
 #include "common/filters/gaussian.hpp"
 
 namespace slammot::graphs {
