@@ -53,6 +53,16 @@ struct TrackedObject {
                                                    ///< likeliest.
   bool occluded = false;  ///< Confirmed, but without an echo in this scan, or only with echoes that
                           ///< may be another object's: the state is predicted.
+
+  /// All members, for memory::StateVisitor. Does not compile where one is missing.
+  static void visit_state(auto& self, auto& visit) {
+    auto& [id, is_confirmed, probability, position, velocity, covariance_of_both, acceleration,
+           heading, length, width, motion_state, likeliest, modes, first_seen, last_seen, contour,
+           path, classes, is_occluded] = self;
+    visit(id, is_confirmed, probability, position, velocity, covariance_of_both, acceleration,
+          heading, length, width, motion_state, likeliest, modes, first_seen, last_seen, contour,
+          path, classes, is_occluded);
+  }
 };
 
 struct TrackedObjects {

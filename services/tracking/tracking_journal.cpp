@@ -23,14 +23,6 @@ struct SessionParts : StateParts {
     auto& [after_s, position_in_odom_m, covariance_m2] = position;
     to(after_s, position_in_odom_m, covariance_m2);
   }
-  static void visit(auto& to, memory::Like<flow::TrackedObject> auto& object) {
-    auto& [track_id, confirmed, existence, position, velocity, covariance, acceleration, heading,
-           length, width, motion, object_class, mode_probability, first_seen_ns, last_seen_ns,
-           contour, predicted_path, class_probability, occluded] = object;
-    to(track_id, confirmed, existence, position, velocity, covariance, acceleration, heading,
-       length, width, motion, object_class, mode_probability, first_seen_ns, last_seen_ns, contour,
-       predicted_path, class_probability, occluded);
-  }
   static void visit(auto& to, memory::Like<flow::TrackedObjects> auto& objects) {
     auto& [stamp_ns, sequence, map_from_odom, odom_from_base, all, map_id, odom_id] = objects;
     to(stamp_ns, sequence, map_from_odom, odom_from_base, all, map_id, odom_id);
