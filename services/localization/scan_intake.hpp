@@ -31,7 +31,8 @@ class ScanIntake {
   Use judge(const sensing::LaserScan& scan, const OdometryPrediction& prediction,
             const LocalMap& map, LocalizerCounters& counters);
 
-  /// For a scan without readings: it without what it repeats.
+  /// The scan with readings that tell nothing, for Use::kWithoutReadings. Valid until the next
+  /// call.
   const sensing::LaserScan& without_readings(const sensing::LaserScan& scan) {
     return frozen_.without_readings(scan);
   }
