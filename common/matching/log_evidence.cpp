@@ -238,6 +238,7 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
     matched = match_all(looked_at, with_field(beams, correction.field_factor), correction);
   const std::vector<MatchedPair> straight_pairs = straight(matched);
   correct_mounting(straight_pairs, beams, correction);
+  take_odometry_anew(looked_at, correction, matched);
   for (const MatchedPair& pair : matched)
     evidence.motions.push_back({pair.first_scan, pair.second_scan, pair.by_scans.heading_rad,
                                 pair.by_scans.translation_m().norm()});

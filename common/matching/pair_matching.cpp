@@ -116,6 +116,12 @@ std::vector<MatchedPair> match_all(std::span<const ScanPair> pairs, const Assume
   return matched;
 }
 
+void take_odometry_anew(std::span<const ScanPair> pairs, const LogCorrection& correction,
+                        std::vector<MatchedPair>& matched) {
+  for (MatchedPair& pair : matched)
+    pair.by_odometry = motion_by_odometry(pairs[pair.number], correction);
+}
+
 std::size_t pairs_within_reach(std::span<const ScanPair> pairs, const LogCorrection& correction) {
   return static_cast<std::size_t>(std::ranges::count_if(pairs, [&](const ScanPair& pair) {
     return is_within_reach(motion_by_odometry(pair, correction));

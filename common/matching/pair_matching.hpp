@@ -25,6 +25,10 @@ struct MatchedPair {
 std::vector<MatchedPair> match_all(std::span<const ScanPair> pairs, const AssumedBeams& beams,
                                    const LogCorrection& correction);
 
+/// Their motions by odometry, with corrections found since.
+void take_odometry_anew(std::span<const ScanPair> pairs, const LogCorrection& correction,
+                        std::vector<MatchedPair>& matched);
+
 /// How many pairs match_all() tries: scans that are farther apart by odometry are not searched.
 std::size_t pairs_within_reach(std::span<const ScanPair> pairs, const LogCorrection& correction);
 

@@ -396,6 +396,11 @@ class Odometry(AlteredDrive):
         self.assertAlmostEqual(math.degrees(1.0), float(line[-9]), places=3)
         self.assertAlmostEqual(math.degrees(1.0), float(line[-12]), places=3)
 
+    def test_headings_of_a_compass_keep_positions(self):
+        for (x, y, heading), altered in zip(poses(FLASER), poses(alter.headings_of_a_compass(FLASER))):
+            self.assertEqual((x, y), altered[:2])
+            self.assertAlmostEqual(0.0, math.remainder(altered[2] + heading - math.pi / 2, 2 * math.pi), places=6)
+
     def test_standing_wheels_stand_again_and_again(self):
         altered = alter.standing(FLASER, 1.0, 5.0)
         stood = sum(math.hypot(*motion[:2]) < 1e-9 for motion in motions(altered))

@@ -594,6 +594,12 @@ def headings_in_degrees(drive):
     return drive.replaced(in_degrees)
 
 
+def headings_of_a_compass(drive):
+    """Clockwise from north, with positions to the east and north."""
+    return drive.with_odometry([(x, y, math.remainder(math.pi / 2 - heading, 2 * math.pi))
+                                for x, y, heading in (record.wheel_from_base for record in drive.odometry())])
+
+
 def pose_words_in_degrees(words):
     return [*words[:2], f"{math.degrees(math.remainder(number(words[2]), 2 * math.pi)):.4f}"]
 

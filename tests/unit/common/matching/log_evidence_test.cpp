@@ -279,6 +279,24 @@ TEST(WeighLog, FindsHeadingsOfTheWrongSign) {
   EXPECT_FALSE(correction.reverses_beams);
 }
 
+/// Clockwise from north, or from south: positions do not say which, a scanner that looks ahead
+/// does.
+TEST(WeighLog, FindsHeadingsOfACompass) {
+  for (const double north_rad : {0.5 * pi, -0.5 * pi}) {
+    const LogCorrection correction =
+        evidence_of({.pose =
+                         [=](const Pose2& pose) {
+                           return Pose2{pose.x_m, pose.y_m, north_rad - pose.heading_rad};
+                         },
+                     .ahead_m = 1.5})
+            .correction;
+    EXPECT_TRUE(correction.mirrors_heading) << north_rad;
+    EXPECT_NEAR(correction.position_turn_rad, -north_rad, 0.05);
+    EXPECT_EQ(correction.laser_turn_rad, 0.0) << north_rad;
+    EXPECT_EQ(correction.odometry_from_base, Pose2::identity()) << north_rad;
+  }
+}
+
 TEST(WeighLog, FindsSwappedAxes) {
   const LogCorrection correction = evidence_of({.pose = [](const Pose2& pose) {
                                      return Pose2{pose.y_m, pose.x_m, pose.heading_rad};
