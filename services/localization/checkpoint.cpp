@@ -92,26 +92,31 @@ void visit_submaps(State& submaps, Visitor visit) {
   visit(submaps.short_submaps_left);
 }
 
-/// The one list of what a checkpoint holds before odometry and map, in its order. prediction.last
-/// is there.
+template <typename State, typename Visitor>
+void visit_pose(State& pose, Visitor visit) {
+  visit_last(*pose.prediction.last, visit);
+  visit_estimate(pose.prediction.estimate, visit);
+  visit_estimate(pose.prediction.with_stamp_offset, visit);
+  visit(pose.prediction.applies_stamp_offset);
+  visit_estimate(pose.prediction.with_pivot, visit);
+  visit(pose.prediction.applies_pivot);
+  visit(pose.prediction.innovations);
+  visit_belief(pose.prediction.belief, visit);
+  visit_monitor(pose.monitor, visit);
+  visit(pose.covariance.factors.of_axis);
+  visit(pose.covariance.factors.dead_reckoned);
+  visit(pose.covariance.map_change.way_m);
+  visit(pose.covariance.map_change.squared_residuals);
+  visit(pose.covariance.by_scans_alone);
+  visit(pose.sweep_factor.value);
+  visit(pose.sweep_factor.variance);
+}
+
+/// The one list of what a checkpoint holds before odometry and map, in its order.
+/// pose.prediction.last is there.
 template <typename AnyCheckpoint, typename Visitor>
 void visit_parts(AnyCheckpoint& checkpoint, Visitor visit) {
-  visit_last(*checkpoint.prediction.last, visit);
-  visit_estimate(checkpoint.prediction.estimate, visit);
-  visit_estimate(checkpoint.prediction.with_stamp_offset, visit);
-  visit(checkpoint.prediction.applies_stamp_offset);
-  visit_estimate(checkpoint.prediction.with_pivot, visit);
-  visit(checkpoint.prediction.applies_pivot);
-  visit(checkpoint.prediction.innovations);
-  visit_belief(checkpoint.prediction.belief, visit);
-  visit_monitor(checkpoint.monitor, visit);
-  visit(checkpoint.covariance.factors.of_axis);
-  visit(checkpoint.covariance.factors.dead_reckoned);
-  visit(checkpoint.covariance.map_change.way_m);
-  visit(checkpoint.covariance.map_change.squared_residuals);
-  visit(checkpoint.covariance.by_scans_alone);
-  visit(checkpoint.sweep_factor.value);
-  visit(checkpoint.sweep_factor.variance);
+  visit_pose(checkpoint.pose, visit);
   visit_submaps(checkpoint.submaps, visit);
   visit(checkpoint.counters);
 }
@@ -196,16 +201,18 @@ bool is_sound(const SubmapSequence::State& submaps) {
          is_believable(submaps.travel.drift) && std::isfinite(submaps.travel.travelled_m);
 }
 
+bool is_sound(const PoseState& pose) {
+  const OdometryPrediction::State& prediction = pose.prediction;
+  return is_sound(prediction.estimate) && is_sound(prediction.with_stamp_offset) &&
+         is_sound(prediction.with_pivot) && prediction.innovations.turns.is_sound() &&
+         prediction.innovations.ways.is_sound() && is_sound(*prediction.last) &&
+         is_sound(prediction.belief) && is_sound(pose.monitor) && is_sound(pose.covariance) &&
+         std::isfinite(pose.sweep_factor.value) && pose.sweep_factor.variance >= 0.0;
+}
+
 bool is_sound(const Checkpoint& checkpoint) {
-  return is_sound(checkpoint.prediction.estimate) &&
-         is_sound(checkpoint.prediction.with_stamp_offset) &&
-         is_sound(checkpoint.prediction.with_pivot) &&
-         checkpoint.prediction.innovations.turns.is_sound() &&
-         checkpoint.prediction.innovations.ways.is_sound() &&
-         is_sound(*checkpoint.prediction.last) && is_sound(checkpoint.prediction.belief) &&
-         is_sound(checkpoint.keyframes) && is_sound(checkpoint.monitor) &&
-         is_sound(checkpoint.covariance) && is_sound(checkpoint.submaps) &&
-         std::isfinite(checkpoint.sweep_factor.value) && checkpoint.sweep_factor.variance >= 0.0 &&
+  return is_sound(checkpoint.pose) && is_sound(checkpoint.keyframes) &&
+         is_sound(checkpoint.submaps) &&
          std::ranges::all_of(checkpoint.odometry, [](const sensing::Odometry& sample) {
            return is_believable(sample.wheel_from_base);
          });
@@ -269,7 +276,7 @@ std::optional<RestoredCheckpoint> checkpoint_of(std::span<const std::byte> bytes
   if (!content) return std::nullopt;
   ByteReader from(*content);
   Checkpoint checkpoint = before;
-  checkpoint.prediction.last = OdometryPrediction::LastScan{};
+  checkpoint.pose.prediction.last = OdometryPrediction::LastScan{};
   std::uint64_t mark = 0;
   from.get(mark);
   if (mark != kMark) return std::nullopt;

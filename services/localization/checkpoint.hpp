@@ -9,22 +9,16 @@
 #include "common/work/side_work.hpp"
 #include "services/localization/keyframe_odometry.hpp"
 #include "services/localization/local_map.hpp"
-#include "services/localization/localization_monitor.hpp"
 #include "services/localization/localizer_config.hpp"
 #include "services/localization/localizer_counters.hpp"
-#include "services/localization/odometry_prediction.hpp"
-#include "services/localization/published_covariance.hpp"
+#include "services/localization/pose_state.hpp"
 #include "services/localization/submap_sequence.hpp"
-#include "services/localization/sweep_estimate.hpp"
 
 namespace slammot::localization {
 
 /// What a localizer goes on from after a crash, beside the local map.
 struct Checkpoint {
-  OdometryPrediction::State prediction;  ///< Of a drive that has begun: it has a last scan.
-  LocalizationMonitor::State monitor;
-  PublishedCovariance::State covariance;
-  SweepFactor sweep_factor;
+  PoseState pose;  ///< Of a drive that has begun: its prediction has a last scan.
   SubmapSequence::State submaps;
   LocalizerCounters counters;
   std::vector<sensing::Odometry> odometry;

@@ -128,7 +128,7 @@ class Localizer final : public stages::LocalizationStage {
  private:
   /// What a scan changes when it is localized: all that must be as before to do it again.
   struct Progress {
-    PoseEstimator::State estimate;
+    PoseState estimate;
     SubmapSequence::Travel travelled;
     LocalizerCounters counters;
     std::uint64_t integrated_scans = 0;  ///< With more in the map, it is another one.

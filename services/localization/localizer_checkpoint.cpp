@@ -5,11 +5,7 @@
 namespace slammot::localization {
 
 Checkpoint Localizer::checkpoint_now() const {
-  PoseEstimator::State estimate = estimator_.state();
-  return {.prediction = std::move(estimate.prediction),
-          .monitor = estimate.monitor,
-          .covariance = estimate.covariance,
-          .sweep_factor = estimate.sweep_factor,
+  return {.pose = estimator_.state(),
           .submaps = submaps_.state(),
           .counters = counters_,
           .odometry = prediction().recent_odometry(),

@@ -100,11 +100,11 @@ bool PoseEstimator::correct_odometry(const sensing::LaserScan& scan, LocalizerCo
   return is_rescaled || is_retimed;
 }
 
-PoseEstimator::State PoseEstimator::state() const {
-  return {prediction_.state(), covariance_.state(), sweep_.factor(), monitor_.state()};
+PoseState PoseEstimator::state() const {
+  return {prediction_.state(), monitor_.state(), covariance_.state(), sweep_.factor()};
 }
 
-void PoseEstimator::set_state(const State& state) {
+void PoseEstimator::set_state(const PoseState& state) {
   prediction_.set_state(state.prediction);
   covariance_.set_state(state.covariance);
   sweep_.set_factor(state.sweep_factor);
@@ -112,11 +112,12 @@ void PoseEstimator::set_state(const State& state) {
 }
 
 void PoseEstimator::resume(const Checkpoint& checkpoint, PoseEstimator&& before) {
-  prediction_.resume(checkpoint.prediction, checkpoint.odometry, std::move(before.prediction_));
-  monitor_.set_state(checkpoint.monitor);
-  covariance_.set_state(checkpoint.covariance);
-  sweep_.set_factor(checkpoint.sweep_factor);
-  watch_.resume(checkpoint.keyframes, checkpoint.prediction.last->stamp_ns);
+  const PoseState& pose = checkpoint.pose;
+  prediction_.resume(pose.prediction, checkpoint.odometry, std::move(before.prediction_));
+  monitor_.set_state(pose.monitor);
+  covariance_.set_state(pose.covariance);
+  sweep_.set_factor(pose.sweep_factor);
+  watch_.resume(checkpoint.keyframes, pose.prediction.last->stamp_ns);
 }
 
 }  // namespace slammot::localization

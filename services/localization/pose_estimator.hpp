@@ -14,6 +14,7 @@
 #include "services/localization/mixture_match.hpp"
 #include "services/localization/odometry_prediction.hpp"
 #include "services/localization/odometry_watch.hpp"
+#include "services/localization/pose_state.hpp"
 #include "services/localization/published_covariance.hpp"
 #include "services/localization/relocalization.hpp"
 #include "services/localization/scan_integration.hpp"
@@ -39,14 +40,6 @@ struct ScanToPlace {
 /// for.
 class PoseEstimator {
  public:
-  /// All that place() changes of the estimate; what is kept of odometry is not in it.
-  struct State {
-    OdometryPrediction::State prediction;
-    PublishedCovariance::State covariance;
-    SweepFactor sweep_factor;
-    LocalizationMonitor::State monitor;
-  };
-
   /// help, if any, takes over part of matching; it must outlive this.
   explicit PoseEstimator(const LocalizerConfig& config, work::SideWork* help = nullptr);
 
@@ -81,8 +74,8 @@ class PoseEstimator {
     return watch_.conclusions(prediction_);
   }
 
-  State state() const;
-  void set_state(const State& state);
+  PoseState state() const;
+  void set_state(const PoseState& state);
 
   /// For a checkpoint.
   const KeyframeOdometry::State& keyframes() const { return watch_.keyframes(); }

@@ -65,7 +65,7 @@ TEST_F(PoseEstimatorTest, PlacesAScanWhereItFitsTheMap) {
 
 TEST_F(PoseEstimatorTest, PlacesTheSameScanAgainAsBefore) {
   EXPECT_TRUE(place_at({0.10, 0.0, 0.0}, Pose2{0.10, 0.0, 0.0}));
-  const PoseEstimator::State before = estimator_.state();
+  const PoseState before = estimator_.state();
   EXPECT_TRUE(place_at({0.20, 0.0, 0.0}, Pose2{0.20, 0.0, 0.0}));
   const Pose2 once = estimator_.odom_from_base();
   estimator_.set_state(before);
