@@ -4,7 +4,7 @@
 include(GoogleTest)
 
 # What nearly every source includes, compiled once: a tenth of the time of a clean build. A source that relies on it for what it
-# does not include itself fails where precompiled headers are off, as with sanitizers (CMakePresets.json).
+# does not include itself fails in `deploy/tidy --syntax --changed`, which does without.
 set(SLAMMOT_LIBRARY_OPTIONS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
     $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # the latter is what ccache needs
 # slammot_precompile(core_headers LINK Eigen3::Eigen OPTIONS -Wall HEADERS <vector> <string>): other targets take these headers by REUSE_FROM.
@@ -41,7 +41,7 @@ slammot_precompile(core_headers LINK Eigen3::Eigen OPTIONS ${SLAMMOT_LIBRARY_OPT
 # slammot_library(common_geometry SOURCES a.cpp b.cpp LINK Eigen3::Eigen)
 # Releases compile up to 12 sources of a library as one: their common headers (Eigen, CLI11, nlohmann::json, Boost.Beast) cost more
 # than they do themselves. So names are unique within a library, also those without linkage: of two functions of a name, a call could
-# take the wrong one. Elsewhere each source is compiled by itself: for clang-tidy, and as a check that it includes what it uses.
+# take the wrong one. Builds with sanitizers do the same; elsewhere each source is compiled by itself.
 function(slammot_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})

@@ -108,7 +108,7 @@ class Observer:
         return self.lines[-1] if self.lines else {"vehicles": {}, "services": [], "time_s": 0.0}
 
     def vehicle(self, name):
-        return self.last()["vehicles"].get(name, {"scans": 0, "tracked": 0, "unanswered": 0, "pending": 0, "pose": None, "tracks": []})
+        return self.last()["vehicles"].get(name, {"scans": 0, "tracked": 0, "unanswered": 0, "unanswered_ns": [], "pending": 0, "pose": None, "tracks": []})
 
     def status(self, service, vehicle="vehicle", instance="main"):
         """The newest status of a service; None before the first. service as on the bus: map_store."""

@@ -31,7 +31,8 @@ constexpr std::int64_t kGivenUpAfterNs = 2'000'000'000;
 /// Of one vehicle, since the last line.
 struct Vehicle {
   std::map<std::int64_t, std::int64_t> published_ns;     ///< By stamp; until there are tracks.
-  std::uint64_t scans = 0, tracked = 0, unanswered = 0;  ///< Since the start.
+  std::uint64_t scans = 0, tracked = 0;                  ///< Since the start,
+  std::vector<std::int64_t> unanswered_ns;               ///< as when scans without tracks came.
   std::map<std::string, std::vector<double>> latencies_ms;
   json pose;  ///< The last one: stamp [ns], x [m], y [m], heading [rad] in odom, map_id.
   json tracks = json::array();  ///< The last confirmed ones: id, x [m], y [m] in odom.
@@ -145,12 +146,15 @@ class Observer {
   }
 
   static json describe(Vehicle& vehicle, std::int64_t now_ns) {
-    vehicle.unanswered += std::erase_if(vehicle.published_ns, [now_ns](const auto& one) {
-      return now_ns - one.second > kGivenUpAfterNs;
+    std::erase_if(vehicle.published_ns, [now_ns, &vehicle](const auto& one) {
+      const bool is_given_up = now_ns - one.second > kGivenUpAfterNs;
+      if (is_given_up) vehicle.unanswered_ns.push_back(one.second);
+      return is_given_up;
     });
     json described = {{"scans", vehicle.scans},
                       {"tracked", vehicle.tracked},
-                      {"unanswered", vehicle.unanswered},
+                      {"unanswered", vehicle.unanswered_ns.size()},
+                      {"unanswered_ns", vehicle.unanswered_ns},
                       {"pending", vehicle.published_ns.size()},
                       {"pose", vehicle.pose},
                       {"tracks", vehicle.tracks},

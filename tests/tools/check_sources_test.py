@@ -62,6 +62,20 @@ class Check(unittest.TestCase):
             with contextlib.redirect_stdout(printed):
                 return check_sources.main([folder, kind], root), printed.getvalue()
 
+    def test_finds_in_chosen_files_what_relies_on_a_precompiled_header(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder).resolve()
+            source = root / "tests" / "a.cpp"
+            source.parent.mkdir()
+            source.write_text("int main() { return zero; }\n", encoding="utf-8")
+            (root / "all.hpp").write_text("constexpr int zero = 0;\n", encoding="utf-8")
+            entry = {"directory": folder, "file": str(source),
+                     "command": f"clang++ -Xclang -include -Xclang {root}/all.hpp -c {source} -o a.o"}
+            (root / "compile_commands.json").write_text(json.dumps([entry]), encoding="utf-8")
+            with contextlib.redirect_stdout(io.StringIO()):
+                self.assertEqual(0, check_sources.main([folder, "syntax"], root))
+                self.assertEqual(1, check_sources.main([folder, "syntax", str(source)], root))
+
     def test_passes_clean_code(self):
         self.assertEqual(0, self.status_of("int main() {}\n")[0])
 
