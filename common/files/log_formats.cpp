@@ -4,6 +4,7 @@
 
 #include "common/bags/bag.hpp"
 #include "common/files/bag_log.hpp"
+#include "common/files/foreign_file.hpp"
 #include "common/files/leg_tracker_log.hpp"
 #include "common/files/line_reader.hpp"
 
@@ -27,8 +28,11 @@ Result<std::unique_ptr<LineSource>> open_text(const std::filesystem::path& path)
 Result<std::unique_ptr<RecordSource>> open_records(const std::filesystem::path& path,
                                                    const RecordOptions& options) {
   std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(path, ignored);
+  if (is_folder && bags::is_bag(path)) return BagLog::open(path, options);
+  if (auto fault = find_foreign(path)) return *fault;
   if (bags::is_bag(path)) return BagLog::open(path, options);
-  if (std::filesystem::is_directory(path, ignored)) return records_of(LegTrackerLog::open(path));
+  if (is_folder) return records_of(LegTrackerLog::open(path));
   return records_of(open_text(path));
 }
 
