@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -45,6 +46,8 @@ int check(const CheckOptions& options) {
   std::printf("profile    %s (%s)\n", profile.profile.c_str(), profile.reason.c_str());
   std::vector<std::string> findings = files::describe_findings(plan);
   while (log->next()) {}
+  for (std::string& skipped : describe_skipped(log->faults()))
+    findings.push_back(std::move(skipped));
   if (log->faults().is_cut)
     findings.push_back("the file is cut off or damaged: this report covers its readable part" +
                        where_damaged(log->faults()));

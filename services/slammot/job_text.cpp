@@ -54,20 +54,26 @@ std::string describe_left_out(const files::RunRecord& record, const files::RunRe
 
 std::string describe_faults(const files::LogFaults& faults) {
   std::string lines;
-  if (faults.malformed_lines > 0) {
-    lines += text("warning:  malformed lines of the log, skipped: %llu; the first:",
-                  static_cast<unsigned long long>(faults.malformed_lines));
-    for (const std::uint64_t line : faults.first_malformed_lines)
-      lines += text(" %llu", static_cast<unsigned long long>(line));
-    lines += "\n";
-  }
-  if (faults.overlong_lines > 0)
-    lines += text("warning:  overlong lines of the log, skipped: %llu\n",
-                  static_cast<unsigned long long>(faults.overlong_lines));
+  for (const std::string& skipped : describe_skipped(faults))
+    lines += "warning:  " + skipped + "\n";
   return lines;
 }
 
 }  // namespace
+
+std::vector<std::string> describe_skipped(const files::LogFaults& faults) {
+  std::vector<std::string> skipped;
+  if (faults.malformed_lines > 0) {
+    skipped.push_back(text("malformed lines of the log, skipped: %llu; the first:",
+                           static_cast<unsigned long long>(faults.malformed_lines)));
+    for (const std::uint64_t line : faults.first_malformed_lines)
+      skipped.back() += text(" %llu", static_cast<unsigned long long>(line));
+  }
+  if (faults.overlong_lines > 0)
+    skipped.push_back(text("overlong lines of the log, skipped: %llu",
+                           static_cast<unsigned long long>(faults.overlong_lines)));
+  return skipped;
+}
 
 std::string name_of_drive(const JobOptions& options) {
   if (options.scenario.empty()) return options.input.filename().string();

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "common/files/run_record.hpp"
 #include "common/files/run_report.hpp"
@@ -18,6 +19,9 @@ std::string name_of_drive(const JobOptions& options);
 /// Summary for the terminal: counts, latencies, speed, faults of the log, output folder.
 std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report,
                              const std::filesystem::path& output);
+
+/// Lines of the log that were skipped while it was read, one sentence for each kind.
+std::vector<std::string> describe_skipped(const files::LogFaults& faults);
 
 /// Place of the damage, such as " (the chunk at byte 1234 does not unpack)"; empty if unknown.
 std::string where_damaged(const files::LogFaults& faults);

@@ -120,6 +120,14 @@ TEST_F(RunCommand, SkipsMalformedLinesAndNamesThem) {
               HasSubstr("malformed lines of the log, skipped: 1; the first: 1"));
 }
 
+TEST_F(RunCommand, CheckDoubtsALogWithMalformedLines) {
+  write("FLASER 181 1 2\n" + room_log(20));
+  const Outcome outcome = call({"check", log_.string()});
+  EXPECT_EQ(outcome.exit_code, kExitDoubtful);
+  EXPECT_THAT(outcome.standard_output,
+              HasSubstr("doubtful   malformed lines of the log, skipped: 1; the first: 1\n"));
+}
+
 TEST_F(RunCommand, SurvivesInvalidScans) {
   std::string content = room_log(5);
   for (int i = 0; i < 20; ++i) {
