@@ -111,12 +111,31 @@ class Fields {
   std::size_t most_alignment_ = 0;  ///< 0: ROS 1.
 };
 
-/// What a rotation must be to be one: drivers that never fill it in send zeros.
-bool is_usable(const Transform& transform) {
+/// Why a pose cannot be used; empty if it can. Drivers that never fill in a rotation send zeros.
+std::string_view fault_of(const Transform& transform) {
   constexpr double kMost = 1e7;
+  constexpr double kLeastNorm = 1e-6;
   const double norm = transform.rotation.norm();
-  return transform.translation_m.allFinite() &&
-         transform.translation_m.cwiseAbs().maxCoeff() < kMost && norm > 0.5 && norm < 2.0;
+  if (!transform.translation_m.allFinite() ||
+      transform.translation_m.cwiseAbs().maxCoeff() >= kMost)
+    return "its position is not finite or beyond 10,000 km";
+  if (!std::isfinite(norm)) return "its quaternion is not finite";
+  if (norm < kLeastNorm) return "its quaternion is all zeros";
+  return {};
+}
+
+/// Rounding of a unit quaternion is left as it is: the last digits of the heading depend on it.
+void normalize(Transform& transform) {
+  constexpr double kRounding = 1e-6;
+  if (std::abs(transform.rotation.norm() - 1.0) > kRounding) transform.rotation.normalize();
+}
+
+OdometryMessage read_odometry(Fields& fields) {
+  OdometryMessage odometry;
+  odometry.header = fields.header();
+  odometry.child_frame = fields.frame();
+  odometry.pose = fields.transform();
+  return odometry;
 }
 
 /// The first echo of each beam, 0 where there is none.
@@ -188,11 +207,9 @@ std::optional<LaserScanMessage> parse_laser_scan(const RawMessage& message) {
 
 std::optional<OdometryMessage> parse_odometry(const RawMessage& message) {
   Fields fields(message);
-  OdometryMessage odometry;
-  odometry.header = fields.header();
-  odometry.child_frame = fields.frame();
-  odometry.pose = fields.transform();
-  if (!fields.is_ok() || !is_usable(odometry.pose)) return std::nullopt;
+  OdometryMessage odometry = read_odometry(fields);
+  if (!fields.is_ok() || !fault_of(odometry.pose).empty()) return std::nullopt;
+  normalize(odometry.pose);
   return odometry;
 }
 
@@ -206,8 +223,9 @@ std::optional<std::vector<TransformMessage>> parse_transforms(const RawMessage& 
     transform.header = fields.header();
     transform.child_frame = fields.frame();
     transform.parent_from_child = fields.transform();
-    if (fields.is_ok() && is_usable(transform.parent_from_child))
-      transforms.push_back(std::move(transform));
+    if (!fields.is_ok() || !fault_of(transform.parent_from_child).empty()) continue;
+    normalize(transform.parent_from_child);
+    transforms.push_back(std::move(transform));
   }
   if (!fields.is_ok()) return std::nullopt;
   return transforms;
@@ -269,6 +287,16 @@ std::optional<PointCloudMessage> parse_point_cloud(const RawMessage& message) {
     }
   }
   return cloud;
+}
+
+std::string why_refused(const RawMessage& message) {
+  if (kind_of(*message.channel) == MessageKind::kOdometry) {
+    Fields fields(message);
+    const OdometryMessage odometry = read_odometry(fields);
+    if (const auto fault = fault_of(odometry.pose); fields.is_ok() && !fault.empty())
+      return std::string(fault);
+  }
+  return "it does not decode as " + message.channel->type;
 }
 
 }  // namespace slammot::bags

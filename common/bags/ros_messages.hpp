@@ -28,7 +28,7 @@ struct LaserScanMessage {
   std::vector<float> range_m;
 };
 
-/// A frame in its parent frame.
+/// A frame in its parent frame. Quaternions of any length are normalized when they are parsed.
 struct Transform {
   Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
@@ -82,5 +82,8 @@ std::optional<OdometryMessage> parse_odometry(const RawMessage& message);
 std::optional<std::vector<TransformMessage>> parse_transforms(const RawMessage& message);
 std::optional<ImuMessage> parse_imu(const RawMessage& message);
 std::optional<PointCloudMessage> parse_point_cloud(const RawMessage& message);
+
+/// Why the parser of its kind refuses a message: "its quaternion is all zeros".
+std::string why_refused(const RawMessage& message);
 
 }  // namespace slammot::bags

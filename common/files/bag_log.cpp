@@ -93,14 +93,15 @@ void BagLog::look_through(bags::MessageSource& messages) {
   index_ = 0;
   sort_kept();
   kept_at_first_ = kept_.size();
-  if (malformed_ > 0)
-    note(std::to_string(malformed_) + " messages could not be understood and were left out");
+  for (const auto& [topic, left_out] : left_out_)
+    choice_.doubts.push_back(topic + ": " + std::to_string(left_out.messages) +
+                             " messages are left out; the first: " + left_out.reason);
   choose_gyro();
 }
 
 void BagLog::look_at_imu(const bags::RawMessage& message) {
   const auto imu = bags::parse_imu(message);
-  if (!imu) return void(++malformed_);
+  if (!imu) return leave_out(message);
   turn_rates_[message.channel->topic].push_back(
       {message.log_time_ns, imu->header.stamp_ns, imu->yaw_rate_radps});
 }
@@ -135,10 +136,9 @@ void BagLog::look_at(const bags::RawMessage& message, MessageKind kind) {
     case MessageKind::kImu: return look_at_imu(message);
     case MessageKind::kTransforms: {
       const auto transforms = bags::parse_transforms(message);
-      if (!transforms) ++malformed_;
-      else
-        for (const bags::TransformMessage& transform : *transforms)
-          frames_.add(transform, message.log_time_ns, index_);
+      if (!transforms) return leave_out(message);
+      for (const bags::TransformMessage& transform : *transforms)
+        frames_.add(transform, message.log_time_ns, index_);
       return;
     }
     case MessageKind::kOther: return;
@@ -167,10 +167,7 @@ void BagLog::look_at_scan(const bags::RawMessage& message, MessageKind kind) {
     });
     const auto cloud =
         known == scan_topics_.end() ? bags::parse_point_cloud(message) : std::nullopt;
-    if (known == scan_topics_.end() && !cloud) {
-      ++malformed_;
-      return;
-    }
+    if (known == scan_topics_.end() && !cloud) return leave_out(message);
     ScanTopic& topic = scan_topics_[cloud ? scan_topic(message, cloud->header.frame)
                                           : static_cast<std::size_t>(known - scan_topics_.begin())];
     topic.is_cloud = true;
@@ -184,10 +181,7 @@ void BagLog::look_at_scan(const bags::RawMessage& message, MessageKind kind) {
   }
   const auto scan = parse_scan(message, kind);
   auto record = scan ? record_of(*scan) : std::nullopt;
-  if (!record) {
-    ++malformed_;
-    return;
-  }
+  if (!record) return leave_out(message);
   const std::size_t index = scan_topic(message, scan->header.frame);
   ScanTopic& topic = scan_topics_[index];
   ++topic.candidate.messages;
@@ -210,10 +204,7 @@ void BagLog::look_at_scan(const bags::RawMessage& message, MessageKind kind) {
 
 void BagLog::look_at_odometry(const bags::RawMessage& message) {
   const auto odometry = bags::parse_odometry(message);
-  if (!odometry) {
-    ++malformed_;
-    return;
-  }
+  if (!odometry) return leave_out(message);
   auto topic = std::ranges::find_if(odometry_topics_, [&](const OdometryTopic& known) {
     return known.candidate.topic == message.channel->topic;
   });
@@ -232,6 +223,14 @@ void BagLog::look_at_odometry(const bags::RawMessage& message) {
       topic->moves ||
       (!topic->poses.empty() && differ(topic->poses.front().wheel_from_base, pose.wheel_from_base));
   if (topic->poses.size() < kMaxKeptPoses) topic->poses.push_back(pose);
+}
+
+void BagLog::leave_out(const bags::RawMessage& message) {
+  LeftOut& left_out = left_out_[message.channel->topic];
+  if (left_out.messages++ > 0) return;
+  left_out.kind = bags::kind_of(*message.channel);
+  const auto scan = parse_scan(message, left_out.kind);
+  left_out.reason = scan ? why_no_record(*scan) : bags::why_refused(message);
 }
 
 void BagLog::note(const std::string& line) {

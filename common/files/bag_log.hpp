@@ -59,6 +59,12 @@ class BagLog : public RecordSource {
     std::int64_t stamp_ns = 0;
     double yaw_rate_radps = 0.0;
   };
+  /// Messages of a topic that cannot be used.
+  struct LeftOut {
+    bags::MessageKind kind = bags::MessageKind::kOther;
+    std::uint64_t messages = 0;
+    std::string reason;  ///< Of the first one.
+  };
   struct OdometryTopic {
     TopicCandidate candidate;
     std::string parent_frame;
@@ -100,6 +106,7 @@ class BagLog : public RecordSource {
   void list_candidates();
   BagOdometry::Clock common_clock(const std::vector<BagPose>& poses) const;
   void note(const std::string& line);
+  void leave_out(const bags::RawMessage& message);
 
   std::optional<Scan> next_scan();
   std::optional<Scan> read_scan();
@@ -115,8 +122,8 @@ class BagLog : public RecordSource {
   std::map<std::string, std::vector<StampedRate>> turn_rates_;  ///< By topic.
   std::vector<StampedRate> gyro_;                               ///< Of the topic with most of them.
   std::size_t gyro_at_ = 0;
-  std::int64_t index_ = 0;  ///< Index of the current message.
-  std::uint64_t malformed_ = 0;
+  std::int64_t index_ = 0;                   ///< Index of the current message.
+  std::map<std::string, LeftOut> left_out_;  ///< By topic.
   std::size_t kept_bytes_ = 0;
   bool all_is_kept_ = true;
   std::deque<Scan> kept_;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "common/files/text.hpp"
+
 namespace slammot::files {
 namespace {
 
@@ -161,6 +163,18 @@ std::optional<LaserRecord> record_of(const bags::LaserScanMessage& scan) {
     }
   }
   return record;
+}
+
+std::string why_no_record(const bags::LaserScanMessage& scan) {
+  if (scan.range_m.size() < 2 || scan.range_m.size() > kMaxBeams)
+    return "it has " + std::to_string(scan.range_m.size()) + " ranges";
+  const bool may_be_degrees = std::abs(scan.first_beam_rad) > 7.0F;
+  return text(
+      "its angles are impossible%s (angle_min %g, angle_max %g, angle_increment %g rad, "
+      "%zu ranges)",
+      may_be_degrees ? ", perhaps degrees" : "", static_cast<double>(scan.first_beam_rad),
+      static_cast<double>(scan.last_beam_rad), static_cast<double>(scan.beam_step_rad),
+      scan.range_m.size());
 }
 
 LaserRecord record_of(const bags::PointCloudMessage& cloud, const bags::Transform& base_from_cloud,

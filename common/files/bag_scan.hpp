@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/bags/ros_messages.hpp"
@@ -38,6 +39,9 @@ std::optional<BeamLayout> layout_of_message(float first_beam_rad, float last_bea
 
 /// As a record without mounting. nullopt for too few, too many or invalid beams.
 std::optional<LaserRecord> record_of(const bags::LaserScanMessage& scan);
+
+/// Why there is no record of a scan: "its angles are impossible (...)".
+std::string why_no_record(const bags::LaserScanMessage& scan);
 
 /// Slice of a cloud by heights in the base's frame [m].
 struct CloudSlice {

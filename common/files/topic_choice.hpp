@@ -54,7 +54,8 @@ struct TopicChoice {
   std::vector<TopicCandidate> scanners;  ///< The best first. Several may be chosen, each another
                                          ///< scanner.
   std::vector<TopicCandidate> odometry;
-  std::vector<std::string> notes;  ///< What else to know: frames that are not tied to each other.
+  std::vector<std::string> doubts;  ///< Messages that were left out or are contradictory.
+  std::vector<std::string> notes;   ///< What else to know: frames that are not tied to each other.
 };
 
 /// Lines for the terminal: what was chosen, the other candidates, and the option that selects.

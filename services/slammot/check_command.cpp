@@ -45,6 +45,7 @@ int check(const CheckOptions& options) {
   std::fputs(files::describe(log->topics()).c_str(), stdout);
   std::printf("profile    %s (%s)\n", profile.profile.c_str(), profile.reason.c_str());
   std::vector<std::string> findings = files::describe_findings(plan);
+  findings.insert(findings.end(), log->topics().doubts.begin(), log->topics().doubts.end());
   while (log->next()) {}
   for (std::string& skipped : describe_skipped(log->faults()))
     findings.push_back(std::move(skipped));

@@ -92,6 +92,7 @@ std::string describe_job(const Job& job, const JobOptions& options) {
   lines += files::describe_scanners(job.log.plan());
   if (options.scenario.empty())
     lines += "odometry: " + files::describe_odometry(job.log.plan()) + "\n";
+  for (const std::string& doubt : job.log.topics().doubts) lines += "warning:  " + doubt + "\n";
   for (const std::string& finding : files::describe_findings(job.log.plan()))
     lines += "warning:  " + finding + "\n";
   for (const std::string& stage : replaced_stages(job.profile.implementations))

@@ -67,6 +67,35 @@ TEST_P(RosMessages, HoldOdometry) {
   EXPECT_NEAR(odometry->pose.rotation.z(), std::sin(0.25), 1e-15);
 }
 
+std::string odometry_with_rotation(Wire wire, const std::vector<double>& rotation) {
+  MessageBytes bytes(wire);
+  bytes.header(3.0, "odom").text("base_link").numbers({1.25, 0.5, 0.0}).numbers(rotation);
+  return bytes.numbers(std::vector<double>(36 + 6 + 36)).bytes();
+}
+
+TEST_P(RosMessages, HoldRotationsOfAnyLength) {
+  for (const double length : {1e-3, 2.0, 300.0}) {
+    const auto odometry = parse_odometry(
+        message("nav_msgs/Odometry",
+                odometry_with_rotation(GetParam(), {0.0, 0.0, 0.6 * length, 0.8 * length})));
+    ASSERT_TRUE(odometry) << length;
+    EXPECT_NEAR(odometry->pose.rotation.z(), 0.6, 1e-12) << length;
+  }
+}
+
+TEST_P(RosMessages, SayWhyTheyAreRefused) {
+  const RawMessage zeros =
+      message("nav_msgs/Odometry", odometry_with_rotation(GetParam(), {0.0, 0.0, 0.0, 0.0}));
+  EXPECT_FALSE(parse_odometry(zeros));
+  EXPECT_EQ(why_refused(zeros), "its quaternion is all zeros");
+  const RawMessage infinite =
+      message("nav_msgs/Odometry", odometry_with_rotation(GetParam(), {0.0, 0.0, NAN, 1.0}));
+  EXPECT_FALSE(parse_odometry(infinite));
+  EXPECT_EQ(why_refused(infinite), "its quaternion is not finite");
+  EXPECT_EQ(why_refused(message("nav_msgs/Odometry", "abc")),
+            "it does not decode as nav_msgs/Odometry");
+}
+
 TEST_P(RosMessages, HoldTransforms) {
   const auto transforms = parse_transforms(message(
       "tf2_msgs/TFMessage", testing::transform_message(GetParam(), 3.0, "base", "laser",

@@ -322,6 +322,21 @@ TEST_F(BagLogTest, SaysWhichTopicsThereAreWhereNoneHoldsScans) {
               HasSubstr("no odometry of the topic /other"));
 }
 
+TEST_F(BagLogTest, SaysWhichMessagesAreLeftOutAndWhy) {
+  std::vector<MessageSpec> messages = testing::straight_bag(kWire, 10);
+  for (MessageSpec& message : messages) {
+    if (message.topic != "/odom") continue;
+    testing::MessageBytes bytes(kWire);
+    bytes.header(message.log_time_s, "odom").text("base_link").numbers(std::vector<double>(7));
+    message.bytes = bytes.numbers(std::vector<double>(36 + 6 + 36)).bytes();
+  }
+  const Reading reading = read(messages);
+  EXPECT_TRUE(reading.odometry.empty());
+  EXPECT_THAT(reading.topics.doubts,
+              ::testing::ElementsAre(
+                  "/odom: 10 messages are left out; the first: its quaternion is all zeros"));
+}
+
 TEST_F(BagLogTest, UsesWhatComesBeforeACut) {
   const std::string whole = testing::mcap_file(testing::straight_bag(kWire, 40), "");
   write_file(file_, whole.substr(0, whole.size() / 2));
