@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/bags/bag.hpp"
+#include "common/files/text.hpp"
 
 namespace slammot::files {
 namespace {
@@ -185,6 +186,7 @@ void BagLog::look_at_scan(const bags::RawMessage& message, MessageKind kind) {
   const std::size_t index = scan_topic(message, scan->header.frame);
   ScanTopic& topic = scan_topics_[index];
   ++topic.candidate.messages;
+  doubt_sign(*scan, *record->layout, topic);
   topic.advancing += scan->header.stamp_ns > topic.newest_stamp_ns ? 1 : 0;
   topic.log_advancing += message.log_time_ns > topic.last_ns ? 1 : 0;
   topic.newest_stamp_ns = std::max(topic.newest_stamp_ns, scan->header.stamp_ns);
@@ -200,6 +202,19 @@ void BagLog::look_at_scan(const bags::RawMessage& message, MessageKind kind) {
   record->stamps = {scan->header.stamp_ns, message.log_time_ns};
   if (all_is_kept_) kept_.push_back({message.log_time_ns, index_, index, std::move(*record)});
   else kept_.clear();
+}
+
+void BagLog::doubt_sign(const bags::LaserScanMessage& scan, const BeamLayout& layout,
+                        ScanTopic& topic) {
+  const double stated_rad = static_cast<double>(scan.beam_step_rad);
+  if (topic.has_wrong_sign || stated_rad * layout.beam_step_rad >= 0.0) return;
+  topic.has_wrong_sign = true;
+  choice_.doubts.push_back(
+      topic.candidate.topic +
+      text(": the sign of angle_increment (%g rad) contradicts angle_min (%g) and angle_max (%g), "
+           "which are used",
+           stated_rad, static_cast<double>(scan.first_beam_rad),
+           static_cast<double>(scan.last_beam_rad)));
 }
 
 void BagLog::look_at_odometry(const bags::RawMessage& message) {

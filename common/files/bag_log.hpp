@@ -48,7 +48,8 @@ class BagLog : public RecordSource {
     std::uint64_t advancing = 0;      ///< Messages with a header stamp newer than all before.
     std::uint64_t log_advancing = 0;  ///< Messages recorded later than all before.
     std::int64_t newest_stamp_ns = 0;
-    std::uint8_t slot = 0;  ///< Slot of its records; 0: none.
+    bool has_wrong_sign = false;  ///< Of angle_increment.
+    std::uint8_t slot = 0;        ///< Slot of its records; 0: none.
     std::optional<Mounting> mounting;
     std::optional<sensing::SpatialMounting> profile_mounting;  ///< If its beams are steep.
     bags::Transform base_from_cloud;
@@ -87,6 +88,7 @@ class BagLog : public RecordSource {
   void sort_kept();
   void look_at(const bags::RawMessage& message, bags::MessageKind kind);
   void look_at_scan(const bags::RawMessage& message, bags::MessageKind kind);
+  void doubt_sign(const bags::LaserScanMessage& scan, const BeamLayout& layout, ScanTopic& topic);
   void look_at_odometry(const bags::RawMessage& message);
   void look_at_imu(const bags::RawMessage& message);
   void choose_gyro();

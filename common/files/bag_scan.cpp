@@ -73,6 +73,17 @@ std::optional<BeamLayout> layout_of_text(double first_beam_rad, double step_rad,
   return BeamLayout{first_rad, six_decimals(steps * meant_rad) / steps};
 }
 
+/// The step with the sign of last - first beam, where their distance agrees with its size: some
+/// drivers have the sign wrong.
+float signed_step_rad(float first_beam_rad, float last_beam_rad, float beam_step_rad,
+                      std::size_t beams) {
+  constexpr float kAgrees = 0.03F;
+  const float by_ends_rad = (last_beam_rad - first_beam_rad) / static_cast<float>(beams - 1);
+  const float size_rad = std::abs(beam_step_rad);
+  const bool agrees = std::abs(std::abs(by_ends_rad) - size_rad) <= kAgrees * size_rad;
+  return agrees ? std::copysign(beam_step_rad, by_ends_rad) : beam_step_rad;
+}
+
 double angle_as_meant(float angle_rad) {
   const auto angle = static_cast<double>(angle_rad);
   if (const auto degrees = simple_degrees(angle)) return *degrees;
@@ -116,10 +127,12 @@ sensing::SpatialMounting in_space(const bags::Transform& base_from_laser) {
 }
 
 std::optional<BeamLayout> layout_of_message(float first_beam_rad, float last_beam_rad,
-                                            float beam_step_rad, std::size_t beams) {
-  if (!std::isfinite(first_beam_rad) || !std::isfinite(beam_step_rad) || beams < 2 ||
+                                            float stated_step_rad, std::size_t beams) {
+  if (!std::isfinite(first_beam_rad) || !std::isfinite(stated_step_rad) || beams < 2 ||
       std::abs(first_beam_rad) > 7.0F)
     return std::nullopt;
+  const float beam_step_rad =
+      signed_step_rad(first_beam_rad, last_beam_rad, stated_step_rad, beams);
   const double first_rad = angle_as_meant(first_beam_rad);
   const double last_rad = std::isfinite(last_beam_rad) && std::abs(last_beam_rad) < 14.0F
                               ? angle_as_meant(last_beam_rad)

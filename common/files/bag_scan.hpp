@@ -33,9 +33,10 @@ double heading_as_written(double heading_rad);
 
 /// Exact beam layout from the float32 angles of a LaserScan: an angle within rounding of a simple
 /// fraction of degrees, or of a number with up to six decimals, becomes that value. First beam,
-/// last beam and step then give the layout as ROBOTLASER1 does. nullopt for invalid angles.
+/// last beam and step then give the layout as ROBOTLASER1 does. Where the ends agree with the size
+/// of the step they decide its sign. nullopt for invalid angles.
 std::optional<BeamLayout> layout_of_message(float first_beam_rad, float last_beam_rad,
-                                            float beam_step_rad, std::size_t beams);
+                                            float stated_step_rad, std::size_t beams);
 
 /// As a record without mounting. nullopt for too few, too many or invalid beams.
 std::optional<LaserRecord> record_of(const bags::LaserScanMessage& scan);

@@ -337,6 +337,22 @@ TEST_F(BagLogTest, SaysWhichMessagesAreLeftOutAndWhy) {
                   "/odom: 10 messages are left out; the first: its quaternion is all zeros"));
 }
 
+TEST_F(BagLogTest, DoubtsAStepThatContradictsTheEndsOfTheScan) {
+  std::vector<MessageSpec> messages = testing::straight_bag(kWire, 10);
+  for (MessageSpec& message : messages) {
+    if (message.topic != "/scan") continue;
+    const std::string step = testing::raw(ScanSpec().step_rad);
+    // angle_min, angle_max and angle_increment follow each other; both ends have the step's size.
+    const std::size_t at = message.bytes.rfind(step);
+    message.bytes.replace(at, step.size(), testing::raw(-ScanSpec().step_rad));
+  }
+  const Reading reading = read(messages);
+  ASSERT_EQ(reading.scans.size(), 10U);
+  EXPECT_EQ(reading.scans[0].scanner.beam_step_rad, pi / 2.0);
+  ASSERT_EQ(reading.topics.doubts.size(), 1U);
+  EXPECT_THAT(reading.topics.doubts[0], HasSubstr("/scan: the sign of angle_increment"));
+}
+
 TEST_F(BagLogTest, UsesWhatComesBeforeACut) {
   const std::string whole = testing::mcap_file(testing::straight_bag(kWire, 40), "");
   write_file(file_, whole.substr(0, whole.size() / 2));

@@ -77,6 +77,17 @@ TEST(LayoutOfMessage, MayGoClockwise) {
   EXPECT_EQ(known.beam_step_rad, -pi / 180.0);
 }
 
+TEST(LayoutOfMessage, TakesTheSignOfItsEndsWhereTheyAgreeWithItsStep) {
+  constexpr float kQuarter = static_cast<float>(pi / 2.0);
+  constexpr float kDegree = static_cast<float>(pi / 180.0);
+  EXPECT_EQ(layout_of_message(-kQuarter, kQuarter, -kDegree, 181)->beam_step_rad, pi / 180.0);
+  EXPECT_EQ(layout_of_message(kQuarter, -kQuarter, kDegree, 181)->beam_step_rad, -pi / 180.0);
+  EXPECT_EQ(layout_of_message(kQuarter, -kQuarter, -kDegree, 181)->beam_step_rad, -pi / 180.0);
+  // The ends contradict the size of the step: they are not believed.
+  EXPECT_EQ(layout_of_message(kQuarter, kQuarter / 2.0F, kDegree, 181)->beam_step_rad, pi / 180.0);
+  EXPECT_EQ(layout_of_message(-kQuarter, NAN, kDegree, 181)->beam_step_rad, pi / 180.0);
+}
+
 TEST(LayoutOfMessage, StaysWithinTheRoundingOfWhateverItIsGiven) {
   for (const double first_rad : {-2.0943951, -2.35619, 0.0, -1.2345678}) {
     for (const double step_rad : {0.0043633, 0.00123, 0.005774, 0.017}) {
