@@ -252,11 +252,33 @@ void BagLog::note(const std::string& line) {
   if (std::ranges::find(choice_.notes, line) == choice_.notes.end()) choice_.notes.push_back(line);
 }
 
+/// "/scan: 292 messages, the first: its angles are impossible (...)" of the topics that may be
+/// used.
+std::string BagLog::unusable_scans() const {
+  const std::string& asked_for = options_.topics.scan_topic;
+  std::string unusable;
+  for (const auto& [topic, left_out] : left_out_) {
+    const bool is_scan = left_out.kind == MessageKind::kLaserScan ||
+                         left_out.kind == MessageKind::kMultiEcho ||
+                         left_out.kind == MessageKind::kPointCloud;
+    if (!is_scan || (!asked_for.empty() && !is_topic(asked_for, topic))) continue;
+    unusable += unusable.empty() ? "" : "; ";
+    unusable += topic + ": " + std::to_string(left_out.messages) +
+                " messages, the first: " + left_out.reason;
+  }
+  return unusable;
+}
+
 Error BagLog::no_scan(const std::filesystem::path& path) const {
   constexpr std::size_t kMostNamed = 300;  // characters
-  std::string message = path.string() + ": no laser scan ";
-  message += options_.topics.scan_topic.empty() ? "in the bag"
-                                                : "of the topic " + options_.topics.scan_topic;
+  std::string message = path.string();
+  if (const std::string unusable = unusable_scans(); !unusable.empty()) {
+    message += ": no usable laser scan: " + unusable;
+  } else {
+    message += ": no laser scan ";
+    message += options_.topics.scan_topic.empty() ? "in the bag"
+                                                  : "of the topic " + options_.topics.scan_topic;
+  }
   std::string topics;
   for (const auto& [topic, type] : types_) {
     if (topics.size() >= kMostNamed) break;
@@ -415,7 +437,9 @@ void BagLog::mount(ScanTopic& topic, const std::string& base_frame) {
   const auto base_from_laser = frames_.fixed(base_frame, topic.candidate.frame);
   const bool is_known = base_from_laser && base_frame != topic.candidate.frame;
   if (!is_known && topic.candidate.is_chosen)
-    note("no transform says where " + topic.candidate.frame +
+    note("no transform says where " +
+         (topic.candidate.frame.empty() ? "the scanner (frame_id is empty)"
+                                        : topic.candidate.frame) +
          " is on the vehicle: as the settings have it (fallback_laser_...)");
   topic.base_from_cloud = base_from_laser.value_or(bags::Transform{});
   const double height_m = topic.base_from_cloud.translation_m.z();

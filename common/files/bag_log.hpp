@@ -96,6 +96,7 @@ class BagLog : public RecordSource {
   std::size_t scan_topic(const bags::RawMessage& message, const std::string& frame);
 
   std::optional<Error> choose(const std::filesystem::path& path);
+  std::string unusable_scans() const;
   Error no_scan(const std::filesystem::path& path) const;
   bool scans_vertically(const TopicCandidate& candidate) const;
   std::optional<std::size_t> main_scanner() const;

@@ -353,6 +353,22 @@ TEST_F(BagLogTest, DoubtsAStepThatContradictsTheEndsOfTheScan) {
   EXPECT_THAT(reading.topics.doubts[0], HasSubstr("/scan: the sign of angle_increment"));
 }
 
+TEST_F(BagLogTest, SaysWhyScansCannotBeUsed) {
+  EXPECT_THAT(refusal({scan("/scan", {.first_rad = -90.0F, .step_rad = 90.0F})}),
+              HasSubstr("no usable laser scan: /scan: 1 messages, the first: its angles are "
+                        "impossible, perhaps degrees (angle_min -90, angle_max 90, "
+                        "angle_increment 90 rad, 3 ranges)"));
+  EXPECT_THAT(refusal({scan("/scan", {.step_rad = NAN})}), HasSubstr("angle_increment nan rad"));
+}
+
+TEST_F(BagLogTest, NamesAScannerWithoutAFrame) {
+  std::vector<MessageSpec> messages;
+  for (int i = 0; i < 5; ++i)
+    messages.push_back(scan("/scan", {.stamp_s = 100.0 + i * 0.1, .frame = ""}));
+  EXPECT_THAT(describe(read(messages).topics),
+              HasSubstr("where the scanner (frame_id is empty) is on the vehicle"));
+}
+
 TEST_F(BagLogTest, UsesWhatComesBeforeACut) {
   const std::string whole = testing::mcap_file(testing::straight_bag(kWire, 40), "");
   write_file(file_, whole.substr(0, whole.size() / 2));
