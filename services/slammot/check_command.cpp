@@ -15,6 +15,7 @@
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/job.hpp"
 #include "services/slammot/job_text.hpp"
+#include "services/slammot/usage.hpp"
 
 namespace slammot {
 namespace {
@@ -27,10 +28,10 @@ struct CheckOptions {
 std::string command_to_run(const CheckOptions& options) {
   std::filesystem::path name = options.log.filename();
   while (name.has_extension()) name = name.stem();
-  std::string command =
-      "slammot run --input " + options.log.string() + " --output out/" + name.string();
+  std::string command = "slammot run --input " + shell_word(options.log.string()) + " --output " +
+                        shell_word("out/" + name.string());
   for (const std::string& argument : ingest::arguments_of(options.topics))
-    command += " " + argument;
+    command += " " + shell_word(argument);
   return command;
 }
 

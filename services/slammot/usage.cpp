@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -130,6 +131,21 @@ std::optional<std::string> unknown_word(const CLI::App& app,
            (name_of_command.empty() ? "" : name_of_command + " ") + "--help lists all";
   }
   return std::nullopt;
+}
+
+std::string shell_word(const std::string& word) {
+  constexpr std::string_view kPlain = "%+,-./:=@_";
+  const bool is_plain = !word.empty() && std::ranges::all_of(word, [&](char letter) {
+    return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+           kPlain.find(letter) != std::string_view::npos;
+  });
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char letter : word) {
+    if (letter == '\'') quoted += "'\\''";
+    else quoted += letter;
+  }
+  return quoted + "'";
 }
 
 std::string explain(const CLI::App& app, const CLI::ParseError& fault) {

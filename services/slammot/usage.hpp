@@ -18,6 +18,9 @@ std::optional<std::string> unknown_word(const CLI::App& app, const std::vector<s
 /// A fault of parsing in one line: the command, what is wrong, and what is expected.
 std::string explain(const CLI::App& app, const CLI::ParseError& fault);
 
+/// A word as a POSIX shell takes it: in quotes unless it has plain characters only.
+std::string shell_word(const std::string& word);
+
 /// Names of all options of a command, with their dashes.
 std::vector<std::string> options_of(const CLI::App& command);
 

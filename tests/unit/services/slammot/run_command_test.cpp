@@ -333,6 +333,10 @@ TEST_F(RunCommand, IsPrecededByCheck) {
   const Outcome sound = call({"check", log_.string()});
   EXPECT_THAT(sound.standard_output, HasSubstr("scans      60 of"));
   EXPECT_THAT(sound.standard_output, HasSubstr("slammot run --input " + log_.string()));
+  std::filesystem::copy_file(log_, folder_ / "my drive.log");
+  EXPECT_THAT(
+      call({"check", folder_ / "my drive.log"}).standard_output,
+      HasSubstr("--input '" + (folder_ / "my drive.log").string() + "' --output 'out/my drive'"));
   const std::string log = room_log(60);
   write(log.substr(0, log.size() - 100));
   const Outcome cut = call({"check", log_.string()});

@@ -32,6 +32,13 @@ TEST(CommandLine, ListsItsCommandsInGroupsWithoutWords) {
     EXPECT_THAT(outcome.standard_output, HasSubstr(part));
 }
 
+TEST(ShellWord, IsQuotedUnlessItIsPlain) {
+  EXPECT_EQ(shell_word("out/drive_1.log.gz"), "out/drive_1.log.gz");
+  EXPECT_EQ(shell_word("my drives/a.log"), "'my drives/a.log'");
+  EXPECT_EQ(shell_word("it's $HOME"), "'it'\\''s $HOME'");
+  EXPECT_EQ(shell_word(""), "''");
+}
+
 TEST(CommandLine, NamesUnknownCommandsWithTheNearestOne) {
   expect_usage_fault({"repotr", "--output", "x"},
                      "unknown command 'repotr'; the nearest one is 'report'");
