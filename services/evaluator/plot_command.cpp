@@ -92,22 +92,22 @@ files::Result<Drawing> draw(const RunResult& result, const PlotOptions& options)
 
 int plot(const PlotOptions& options) {
   constexpr double kSharp = 2.0;  // pixels a unit, of plots with text
+  const path output =
+      options.output.empty() ? options.result / (options.what + "_plot.png") : options.output;
+  if (output.extension() != ".png" && output.extension() != ".svg")
+    return files::refuse("--output " + output.string() + ": the name must end with .png or .svg");
   const auto result = read_result(options.result);
   if (!result) return files::fail(result.error().message);
   const auto drawing = draw(*result, options);
   if (!drawing) return files::fail(drawing.error().message);
-  const path output =
-      options.output.empty() ? options.result / (options.what + "_plot.png") : options.output;
   std::string content;
   if (output.extension() == ".svg") {
     content = to_svg(*drawing);
-  } else if (output.extension() == ".png") {
+  } else {
     const bool is_map = options.what != "latency" && options.what != "errors";
     const auto png = files::to_png(to_pixels(*drawing, is_map ? 1.0 : kSharp));
     if (!png) return files::fail(png.error().message);
     content = *png;
-  } else {
-    return files::fail("--output " + output.string() + ": the name must end with .png or .svg");
   }
   if (const auto fault = files::write_file_atomically(output, content))
     return files::fail(fault->message);

@@ -71,7 +71,7 @@ std::pair<std::string, std::string> names_of(const path& a, const path& b) {
 
 int write_comparison(const ReportOptions& options) {
   if (!options.comparison.truth.empty())
-    return files::fail(
+    return files::refuse(
         "--truth belongs to the report of one result; slammot eval compares with truth");
   const auto a = read_result(options.results[0]);
   if (!a) return files::fail(a.error().message);
@@ -86,7 +86,7 @@ int report(ReportOptions options) {
   if (options.results.size() == 2 && options.comparison.result.empty())
     return write_comparison(options);
   if (options.results.empty() == options.comparison.result.empty())
-    return files::fail(
+    return files::refuse(
         "a result is required: the folder that run or bench wrote, or two to compare");
   if (!options.results.empty()) options.comparison.result = options.results.front();
   return write_report(options);

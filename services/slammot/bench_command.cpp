@@ -200,6 +200,7 @@ double duration_of(const std::vector<std::int64_t>& stamps_ns) {
 }
 
 int bench(const BenchOptions& requested) {
+  if (const auto fault = find_usage_fault(requested)) return files::refuse(fault->message);
   std::atomic<bool> is_interrupted = false;
   const app::StopSignal stop_signal([&] { is_interrupted = true; });
   const auto recorded = with_recorded_drive(requested);

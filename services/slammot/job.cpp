@@ -158,12 +158,16 @@ void add_job_options(CLI::App& command, JobOptions& options) {
   command.add_flag("--quiet", options.is_quiet, "Print warnings and faults only");
 }
 
+std::optional<Error> find_usage_fault(const JobOptions& options) {
+  if (const auto speed = parse_speed(options.speed); !speed) return speed.error();
+  if (!options.profile.empty() && !config::find_profile(options.profile))
+    return Error{config::unknown_profile(options.profile)};
+  return find_fault_of_source(options);
+}
+
 files::Result<Job> prepare_job(const JobOptions& options) {
   const auto speed = parse_speed(options.speed);
   if (!speed) return speed.error();
-  if (!options.profile.empty() && !config::find_profile(options.profile))
-    return Error{config::unknown_profile(options.profile)};
-  if (auto fault = find_fault_of_source(options)) return *fault;
   auto drive = open_drive(options);
   if (!drive) return drive.error();
   Profile profile;

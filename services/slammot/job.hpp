@@ -45,9 +45,13 @@ struct Job {
 
 void add_job_options(CLI::App& command, JobOptions& options);
 
+/// A fault of the command line itself, before any file is opened but that of a profile.
+std::optional<files::Error> find_usage_fault(const JobOptions& options);
+
 /// Opens the log or begins the simulation, selects and loads the settings, and creates the output
-/// folder. All user errors are reported here, before processing. A simulated drive writes its
-/// ground truth into the output folder: truth.tum, truth.objects.csv and truth.walls.csv.
+/// folder. Errors in what the options name are reported here, before processing. A simulated drive
+/// writes its ground truth into the output folder: truth.tum, truth.objects.csv and
+/// truth.walls.csv.
 files::Result<Job> prepare_job(const JobOptions& options);
 
 inline constexpr const char* kSettingsFile = "settings.textproto";

@@ -191,6 +191,7 @@ std::optional<files::Error> store_map(const JobOptions& options, const Pipeline&
 
 int run(const RunOptions& run_options) {
   const JobOptions& options = run_options.job;
+  if (const auto fault = find_usage_fault(options)) return files::refuse(fault->message);
   const auto start = Clock::now();
   std::stop_source interruption;
   const app::StopSignal stop_signal([&] { interruption.request_stop(); });

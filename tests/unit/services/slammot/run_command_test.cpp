@@ -143,9 +143,10 @@ TEST_F(RunCommand, SurvivesInvalidScans) {
 }
 
 TEST_F(RunCommand, RejectsBadInputInOneLine) {
-  const auto expect_refused = [&](const std::vector<std::string>& more, const std::string& reason) {
+  const auto expect_refused = [&](const std::vector<std::string>& more, const std::string& reason,
+                                  int exit_code = kExitFault) {
     const Outcome outcome = run(more);
-    EXPECT_EQ(outcome.exit_code, kExitFault) << reason;
+    EXPECT_EQ(outcome.exit_code, exit_code) << reason;
     EXPECT_THAT(outcome.standard_error, HasSubstr(reason));
     expect_one_line(outcome.standard_error);
   };
@@ -153,8 +154,8 @@ TEST_F(RunCommand, RejectsBadInputInOneLine) {
   write("");
   expect_refused({}, "the file is empty");
   write(room_log(5));
-  expect_refused({"--profile", "moon"}, "unknown profile 'moon'");
-  expect_refused({"--speed", "0"}, "neither a number above 0 nor max");
+  expect_refused({"--profile", "moon"}, "unknown profile 'moon'", kExitUsage);
+  expect_refused({"--speed", "0"}, "neither a number above 0 nor max", kExitUsage);
   expect_refused({"--config", (folder_ / "missing").string()}, "cannot be read");
   std::ofstream(folder_ / "settings") << "localization { fancy: 3 }";
   expect_refused({"--config", (folder_ / "settings").string()}, "settings:1:");
@@ -273,17 +274,18 @@ TEST_F(RunCommand, RejectsUnknownAndUnsuitableImplementations) {
 }
 
 TEST_F(RunCommand, RequiresEitherALogOrAScenario) {
-  const auto expect_refused = [&](std::vector<std::string> words, const std::string& reason) {
+  const auto expect_refused = [&](std::vector<std::string> words, const std::string& reason,
+                                  int exit_code = kExitUsage) {
     words.insert(words.begin(), {"run", "--output", (folder_ / "out").string()});
     const Outcome outcome = call(words);
-    EXPECT_EQ(outcome.exit_code, kExitFault) << reason;
+    EXPECT_EQ(outcome.exit_code, exit_code) << reason;
     EXPECT_THAT(outcome.standard_error, HasSubstr(reason));
     expect_one_line(outcome.standard_error);
   };
   expect_refused({}, "a drive is required");
   expect_refused({"--input", "a.log", "--scenario", "demo"}, "exclude each other");
   expect_refused({"--input", "a.log", "--seed", "3"}, "--seed belongs to --scenario");
-  expect_refused({"--scenario", "atlantis"}, "no scenario is named 'atlantis'");
+  expect_refused({"--scenario", "atlantis"}, "no scenario is named 'atlantis'", kExitFault);
 }
 
 struct Refusal {

@@ -60,6 +60,14 @@ TEST(CommandLine, NamesMissingArgumentsWithTheirMeaning) {
   expect_usage_fault({"map"}, "a command is missing, one of: merge");
 }
 
+TEST(CommandLine, RefusesArgumentsThatDoNotFit) {
+  expect_usage_fault({"report"}, "a result is required");
+  expect_usage_fault({"report", "a", "b", "--truth", "x"}, "--truth belongs to the report of one");
+  expect_usage_fault({"plot", "map", "a", "--output", "a.jpg"}, "must end with .png or .svg");
+  expect_usage_fault({"bench", "--input", "a.log", "--scenario", "demo", "--output", "x"},
+                     "exclude each other");
+}
+
 TEST(CommandLine, StatesWhatAnOptionExpects) {
   expect_usage_fault({"run", "--scenario", "block", "--output", "x", "--seed", "zzz"},
                      "--seed does not take 'zzz', but a whole number: Seed");
