@@ -105,6 +105,9 @@ int animate(const AnimateOptions& options) {
   const auto result = read_result(options.result);
   if (!result) return files::fail(result.error().message);
   const double end_s = seconds_of(*result, result->corrected.back().stamp_ns);
+  if (options.from_s && *options.from_s > end_s)
+    return files::refuse(
+        files::text("--from %g: the drive ends at %.1f s", *options.from_s, end_s));
   const double length_s = std::min(options.length_s, end_s);
   const double from_s = std::clamp(options.from_s.value_or(liveliest_s(*result, length_s)), 0.0,
                                    std::max(0.0, end_s - length_s));

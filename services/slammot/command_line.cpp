@@ -1,7 +1,9 @@
 #include "services/slammot/command_line.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -68,6 +70,14 @@ void set_groups(CLI::App& app) {
     command->group(group_of(command->get_name()));
 }
 
+/// "help run" as "run --help", "version" as "--version".
+std::vector<std::string> with_options(std::vector<std::string> words) {
+  if (words.front() != "help" && words.front() != "version") return words;
+  std::ranges::rotate(words, words.begin() + 1);
+  words.back().insert(0, "--");
+  return words;
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -112,12 +122,14 @@ int run_command_line(int argc, char** argv) {
     std::fputs(app.help().c_str(), stdout);
     return kExitUsage;
   }
-  if (const auto fault = unknown_word(app, {argv + 1, argv + argc})) {
+  std::vector<std::string> words = with_options({argv + 1, argv + argc});
+  if (const auto fault = unknown_word(app, words)) {
     std::fprintf(stderr, "slammot: %s\n", fault->c_str());
     return kExitUsage;
   }
   try {
-    app.parse(argc, argv);
+    std::ranges::reverse(words);  // as CLI11 takes them
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& fault) {
     if (fault.get_exit_code() == 0) return app.exit(fault);  // --help, --version
     std::fprintf(stderr, "%s\n", explain(app, fault).c_str());

@@ -348,6 +348,15 @@ TEST_F(RunCommand, IsPrecededByCheck) {
   EXPECT_EQ(call({"check", log_.string()}).exit_code, kExitFault);
 }
 
+TEST_F(RunCommand, AnimateRefusesABeginBeyondTheEndOfTheDrive) {
+  write(room_log(20));
+  ASSERT_EQ(run({"--no-report"}).exit_code, kExitDone);
+  const Outcome outcome = call({"animate", (folder_ / "out").string(), "--from", "5000"});
+  EXPECT_EQ(outcome.exit_code, kExitUsage);
+  EXPECT_THAT(outcome.standard_error, HasSubstr("--from 5000: the drive ends at 1.9 s"));
+  expect_one_line(outcome.standard_error);
+}
+
 TEST_F(RunCommand, ReportsWhyScansWereNotLocalized) {
   const std::string log = room_log(60);
   const std::string last_line = log.substr(log.rfind('\n', log.size() - 2) + 1);

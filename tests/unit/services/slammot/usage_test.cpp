@@ -68,6 +68,15 @@ TEST(CommandLine, RefusesArgumentsThatDoNotFit) {
                      "exclude each other");
 }
 
+TEST(CommandLine, TakesHelpAndVersionAsCommands) {
+  EXPECT_EQ(call({"version"}).standard_output, call({"--version"}).standard_output);
+  EXPECT_EQ(call({"help"}).standard_output, call({"--help"}).standard_output);
+  const Outcome help_of_run = call({"help", "run"});
+  EXPECT_EQ(help_of_run.exit_code, kExitDone);
+  EXPECT_THAT(help_of_run.standard_output, HasSubstr("--iterations"));
+  expect_usage_fault({"help", "repotr"}, "unknown command 'repotr'");
+}
+
 TEST(CommandLine, StatesWhatAnOptionExpects) {
   expect_usage_fault({"run", "--scenario", "block", "--output", "x", "--seed", "zzz"},
                      "--seed does not take 'zzz', but a whole number: Seed");
