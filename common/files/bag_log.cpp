@@ -272,7 +272,8 @@ std::string BagLog::unusable_scans() const {
 Error BagLog::no_scan(const std::filesystem::path& path) const {
   constexpr std::size_t kMostNamed = 300;  // characters
   std::string message = path.string();
-  if (const std::string unusable = unusable_scans(); !unusable.empty()) {
+  const std::string unusable = unusable_scans();
+  if (!unusable.empty()) {
     message += ": no usable laser scan: " + unusable;
   } else {
     message += ": no laser scan ";
@@ -288,7 +289,7 @@ Error BagLog::no_scan(const std::filesystem::path& path) const {
     topics += type;
     topics += ')';
   }
-  message += types_.empty() ? ", nor any message" : "; its topics: " + topics;
+  if (unusable.empty()) message += types_.empty() ? ", nor any message" : "; its topics: " + topics;
   if (!damage_.empty()) message += "; it is cut off or damaged: " + damage_;
   std::ranges::replace_if(
       message, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, '?');
