@@ -6,6 +6,7 @@
 
 #include "common/files/live_plan.hpp"
 #include "common/files/log_formats.hpp"
+#include "common/files/repeated_scans.hpp"
 #include "common/files/sorted_records.hpp"
 
 namespace slammot::files {
@@ -120,7 +121,8 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path,
   const auto open_in_order = [&]() -> Result<std::unique_ptr<RecordSource>> {
     auto opened = open_records(path, record_options);
     if (!opened) return opened;
-    std::unique_ptr<RecordSource> records = std::move(*opened);
+    std::unique_ptr<RecordSource> records =
+        std::make_unique<WithoutRepeatedScans>(std::move(*opened));
     if (sorted_by) records = std::make_unique<SortedRecords>(std::move(records), *sorted_by);
     if (stray.count() > 0)
       records = std::make_unique<WithoutStrayOdometry>(std::move(records), stray);
@@ -149,6 +151,7 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path,
     return Error{path.string() + ": " + fault->message};
   LogPlan plan = survey.conclude(options.fallback_field_of_view_rad, wish);
   plan.scans_are_sorted = sorted_by.has_value();
+  plan.repeated_scans = read.repeated_scans();
   plan.stray_odometry = stray.count();
   if (options.is_as_live) plan = as_live(std::move(plan));
   if (first_pass->has_kept_all) {

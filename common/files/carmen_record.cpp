@@ -124,6 +124,22 @@ std::optional<std::vector<float>> next_ranges(Words& words) {
 
 enum class Slot : std::uint8_t { kFront = 1, kRear = 2 };
 
+constexpr MalformedLine kAnotherCount{"it does not hold as many ranges as it says"};
+
+/// True if the host's name is not the second of the last words: all numbers before it are then of
+/// other fields than they are taken for. rest: from the scanner's stamp on.
+bool host_is_elsewhere(Words rest) {
+  constexpr std::size_t kPlaceOfHost = 1;
+  bool was_name = false;
+  std::size_t place = 0;
+  for (std::string_view word = rest.next(); !word.empty(); word = rest.next(), ++place) {
+    const bool is_number = parse_number<double>(word).has_value();
+    if (was_name && is_number) return place != kPlaceOfHost + 1;
+    was_name = !is_number;
+  }
+  return false;
+}
+
 /// FLASER and RLASER.
 CarmenRecord parse_flaser(std::string_view keyword, Slot slot, Words words) {
   LaserRecord record;
@@ -137,6 +153,7 @@ CarmenRecord parse_flaser(std::string_view keyword, Slot slot, Words words) {
   if (!next_pose(words)) return MalformedLine{};
   const auto wheel_from_base = next_pose(words);
   if (!wheel_from_base || words.count_left() == 0) return MalformedLine{};
+  if (host_is_elsewhere(words)) return kAnotherCount;
   record.wheel_from_base = *wheel_from_base;
   record.stamps = next_stamps(words);
   return record;

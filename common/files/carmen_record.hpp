@@ -97,7 +97,9 @@ struct ParamRecord {
 struct IgnoredLine {};
 
 /// An invalid record: too few numbers, letters for numbers, or a pose that is not finite.
-struct MalformedLine {};
+struct MalformedLine {
+  std::string_view why = {};  ///< Empty if nothing more is known.
+};
 
 using CarmenRecord = std::variant<IgnoredLine, MalformedLine, ParamRecord, ImuRecord,
                                   OdometryRecord, LaserRecord, GnssRecord, CompassRecord>;

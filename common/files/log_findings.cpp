@@ -108,7 +108,13 @@ void describe_own_bodies(const LogPlan& plan, std::vector<std::string>& findings
 
 void describe_gaps(const LogPlan& plan, std::vector<std::string>& findings) {
   constexpr double kLongGap = 10.0;  // periods
+  constexpr std::size_t kFewBeams = 32;
   const LogFigures& figures = plan.figures;
+  if (plan.repeated_scans > 0)
+    findings.push_back(
+        text("%llu scans are recorded again, with the same stamp and readings: left "
+             "out",
+             static_cast<unsigned long long>(plan.repeated_scans)));
   if (plan.scans_are_sorted)
     findings.emplace_back("scans are logged in another order than they were taken in: sorted");
   if (figures.scans_without_readings > 0) {
@@ -119,8 +125,13 @@ void describe_gaps(const LogPlan& plan, std::vector<std::string>& findings) {
   if (figures.has_clock && figures.longest_gap_s > 2.0 &&
       figures.longest_gap_s > kLongGap * figures.scan_period_s)
     findings.push_back(text("no scan for %.1f s", figures.longest_gap_s));
-  if (figures.echo_share > 0.0 && figures.echo_share < 0.2)
+  if (figures.scans > 0 && figures.echo_share == 0.0)
+    findings.emplace_back("no beam has an echo: odometry alone says how the vehicle moves");
+  else if (figures.scans > 0 && figures.echo_share < 0.2)
     findings.push_back(text("only %.0f %% of the beams have an echo", 100.0 * figures.echo_share));
+  if (figures.beams > 0 && figures.beams < kFewBeams)
+    findings.push_back(
+        text("scans of %zu beams are too coarse to tell how the vehicle moves", figures.beams));
 }
 
 constexpr double kTold = 0.15;  // least scale error that is reported

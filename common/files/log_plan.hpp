@@ -124,6 +124,7 @@ struct LogPlan {
   double max_range_m = 0.0;  ///< Readings at or beyond it are "no echo"; a scan's own record may
                              ///< have a lower limit.
   std::size_t stray_odometry = 0;    ///< Poses of odometry that are none of the drive's, left out.
+  std::uint64_t repeated_scans = 0;  ///< Recorded again with stamp and readings: left out.
   bool scans_are_sorted = false;     ///< They were logged in another order.
   bool first_scan_is_ahead = false;  ///< The next two scans have consistent stamps far before the
                                      ///< first one's.

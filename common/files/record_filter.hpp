@@ -14,6 +14,7 @@ class RecordFilter : public RecordSource {
   double fraction_read() const override { return records_->fraction_read(); }
   std::uint64_t overlong_lines() const override { return records_->overlong_lines(); }
   bool last_line_is_unfinished() const override { return records_->last_line_is_unfinished(); }
+  std::uint64_t repeated_scans() const override { return records_->repeated_scans(); }
   bool is_cut() const override { return records_->is_cut(); }
   std::string damage() const override { return records_->damage(); }
   TopicChoice topics() const override { return records_->topics(); }

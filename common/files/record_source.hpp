@@ -32,6 +32,9 @@ class RecordSource {
   /// True if the last record had no end: the text may be truncated.
   virtual bool last_line_is_unfinished() const { return false; }
 
+  /// Number of scans left out so far because they were recorded again.
+  virtual std::uint64_t repeated_scans() const { return 0; }
+
   /// True if the log continues beyond an unreadable place.
   virtual bool is_cut() const { return false; }
 

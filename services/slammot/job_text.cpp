@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <string_view>
 
 #include "common/files/georeference_findings.hpp"
 #include "common/files/log_findings.hpp"
@@ -126,6 +127,18 @@ std::string describe_outcome(const files::RunRecord& record, const files::RunRep
                 report.measured.peak_memory_mb);
   return lines + describe_left_out(record, report) + describe_faults(report.faults) +
          "results are in " + output.string() + "\n";
+}
+
+std::string describe_leftovers(const JobOptions& options) {
+  std::string names;
+  for (const char* name : {"map.sqlite", "evaluation.json", "collision_warnings.csv"}) {
+    const bool is_replaced = options.stores_map && std::string_view(name) == "map.sqlite";
+    if (!is_replaced && std::filesystem::exists(options.output / name))
+      names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return names.empty() ? names
+                       : "warning:  of an earlier run, not of this one: " + names + " in " +
+                             options.output.string() + "\n";
 }
 
 std::string where_damaged(const files::LogFaults& faults) {

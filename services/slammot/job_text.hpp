@@ -20,6 +20,10 @@ std::string name_of_drive(const JobOptions& options);
 std::string describe_outcome(const files::RunRecord& record, const files::RunReport& report,
                              const std::filesystem::path& output);
 
+/// A warning if the output folder holds files of an earlier run that this one does not replace;
+/// empty otherwise.
+std::string describe_leftovers(const JobOptions& options);
+
 /// Lines of the log that were skipped while it was read, one sentence for each kind.
 std::vector<std::string> describe_skipped(const files::LogFaults& faults);
 

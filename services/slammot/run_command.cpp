@@ -228,6 +228,7 @@ int run(const RunOptions& run_options) {
   write_report(options, pipeline.record());
   print(options, describe_location(pipeline, run_options));
   print(options, describe_outcome(pipeline.record(), report, options.output));
+  print(options, describe_leftovers(options));
   return report_end(options, report, driven);
 }
 

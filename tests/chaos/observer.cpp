@@ -30,9 +30,9 @@ constexpr std::int64_t kGivenUpAfterNs = 2'000'000'000;
 
 /// Of one vehicle, since the last line.
 struct Vehicle {
-  std::map<std::int64_t, std::int64_t> published_ns;     ///< By stamp; until there are tracks.
-  std::uint64_t scans = 0, tracked = 0;                  ///< Since the start,
-  std::vector<std::int64_t> unanswered_ns;               ///< as when scans without tracks came.
+  std::map<std::int64_t, std::int64_t> published_ns;  ///< By stamp; until there are tracks.
+  std::uint64_t scans = 0, tracked = 0;               ///< Since the start,
+  std::vector<std::int64_t> unanswered_ns;            ///< as when scans without tracks came.
   std::map<std::string, std::vector<double>> latencies_ms;
   json pose;  ///< The last one: stamp [ns], x [m], y [m], heading [rad] in odom, map_id.
   json tracks = json::array();  ///< The last confirmed ones: id, x [m], y [m] in odom.

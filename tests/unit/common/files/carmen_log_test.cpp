@@ -385,14 +385,29 @@ TEST_F(CarmenLogTest, TakesTheOdomLineBeforeAScanWithoutPoseWhereNoClockRuns) {
   EXPECT_EQ(reading.odometry[2].stamp_ns, reading.scans[2].stamp_ns);
 }
 
-TEST_F(CarmenLogTest, KeepsDuplicateAndLateScansWithTheirOwnStampButWithoutOdometry) {
+TEST_F(CarmenLogTest, KeepsOtherScansOfEarlierStampsWithTheirOwnStampButWithoutOdometry) {
   std::string content = straight_drive(20);
-  content += FlaserLine{.pose = "1.9 0 0", .ipc = "1001.9"}.text() +
-             FlaserLine{.pose = "1.7 0 0", .ipc = "1001.7"}.text();
+  const std::string ranges = "4 1.1 2.0 3.0 4.0";
+  content += FlaserLine{.ranges = ranges, .pose = "1.9 0 0", .ipc = "1001.9"}.text() +
+             FlaserLine{.ranges = ranges, .pose = "1.7 0 0", .ipc = "1001.7"}.text();
   const Reading reading = read(content);
   ASSERT_EQ(reading.scans.size(), 22u);
   EXPECT_EQ(reading.odometry.size(), 20u);
   EXPECT_EQ(reading.scans[21].stamp_ns, 1'001'700'000'000);
+}
+
+TEST_F(CarmenLogTest, LeavesOutScansThatAreRecordedAgain) {
+  const Reading reading = read(straight_drive(20) + straight_drive(20));
+  EXPECT_EQ(read(straight_drive(20)).plan.repeated_scans, 0u);
+  EXPECT_EQ(reading.plan.figures.scans, 40u) << "a log twice is two drives";
+  const std::string drive = straight_drive(20);
+  std::string twice;
+  for (std::size_t at = 0; at < drive.size(); at = drive.find('\n', at) + 1) {
+    const std::string line = drive.substr(at, drive.find('\n', at) + 1 - at);
+    twice += line + line;
+  }
+  EXPECT_EQ(read(twice).scans.size(), 20u);
+  EXPECT_EQ(read(twice).plan.repeated_scans, 20u);
 }
 
 TEST_F(CarmenLogTest, GivesAFirstScanFromTheFutureAfterTheSecondOne) {
@@ -423,7 +438,7 @@ TEST_F(CarmenLogTest, TakesTheFirstScanForGoodWhereItIsTheSecondThatIsFarBehind)
 TEST_F(CarmenLogTest, SkipsMalformedLinesAndNamesTheFirstOnes) {
   std::string content = straight_drive(3);
   for (int i = 0; i < 7; ++i) content += "FLASER 3 1 2\n";
-  const Reading reading = read(content + straight_drive(1));
+  const Reading reading = read(content + FlaserLine{.pose = "0.3 0 0", .ipc = "1000.3"}.text());
   EXPECT_EQ(reading.scans.size(), 4u);
   EXPECT_EQ(reading.faults.malformed_lines, 7u);
   EXPECT_THAT(reading.faults.first_malformed_lines, ElementsAre(4, 5, 6, 7, 8));

@@ -18,6 +18,7 @@ namespace {
 using geometry::Pose2;
 using std::numbers::pi;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using testing::PoseNear;
 
 const std::string kHead = "ROBOTLASER1 0 -1.570796 3.141593 0.785398 81.83 0.01 0 5 1 2 3 4 81.83 ";
@@ -91,6 +92,19 @@ TEST(ParseCarmenLine, ReadsFlaserWithTheWheelsPoseAndBothClocks) {
   EXPECT_EQ(record.max_range_m, 0.0);
   EXPECT_EQ(record.stamps.ipc_ns, 12'250'000'000);
   EXPECT_EQ(record.stamps.logger_ns, 3'500'000'000);
+}
+
+TEST(ParseCarmenLine, RefusesFlaserWithAnotherCountThanItSays) {
+  const std::string rest = " 1.5 2.5 81.83 9 9 9 1.0 2.0 0.5 12.25 host 3.5";
+  for (const char* count : {"2", "4"}) {
+    const CarmenRecord record = parse_carmen_line("FLASER " + std::string(count) + rest);
+    ASSERT_TRUE(std::holds_alternative<MalformedLine>(record)) << count;
+    EXPECT_THAT(std::string(std::get<MalformedLine>(record).why), HasSubstr("as many ranges"))
+        << count;
+  }
+  for (const char* end : {"12.25 7 3.5", "12.25 host", "12.25", "nan host 3.5",
+                          "12.25 host 3.5 more", "12.25 192.168.0.1 3.5"})
+    EXPECT_FALSE(is_malformed(std::string("FLASER 2 1 2 9 9 9 1 2 0.5 ") + end)) << end;
 }
 
 TEST(ParseCarmenLine, ReadsRobotLaserWithoutRemissionCount) {

@@ -20,6 +20,7 @@ namespace {
 
 using testing::call;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::Outcome;
 using testing::room_log;
 
@@ -110,6 +111,15 @@ TEST_F(RunCommand, ProcessesTheReadablePartOfATruncatedLog) {
   EXPECT_THAT(outcome.standard_error, HasSubstr("is cut off or damaged"));
   const std::string online = read(folder_ / "out" / "online.tum");
   EXPECT_GT(std::count(online.begin(), online.end(), '\n'), 10);
+}
+
+TEST_F(RunCommand, NamesFilesOfAnEarlierRunThatItDoesNotReplace) {
+  write(room_log(20));
+  EXPECT_THAT(run().standard_output, Not(HasSubstr("of an earlier run")));
+  std::ofstream(folder_ / "out" / "map.sqlite") << "another drive";
+  std::ofstream(folder_ / "out" / "evaluation.json") << "{}";
+  EXPECT_THAT(run().standard_output,
+              HasSubstr("of an earlier run, not of this one: map.sqlite, evaluation.json in"));
 }
 
 TEST_F(RunCommand, SkipsMalformedLinesAndNamesThem) {
@@ -359,8 +369,9 @@ TEST_F(RunCommand, AnimateRefusesABeginBeyondTheEndOfTheDrive) {
 
 TEST_F(RunCommand, ReportsWhyScansWereNotLocalized) {
   const std::string log = room_log(60);
-  const std::string last_line = log.substr(log.rfind('\n', log.size() - 2) + 1);
-  write(log + last_line + last_line);
+  std::string other_scan = log.substr(log.rfind('\n', log.size() - 2) + 1);
+  other_scan.replace(other_scan.find('.'), 2, ".01");  // else it would be a scan recorded again
+  write(log + other_scan + other_scan);
   EXPECT_THAT(run().standard_output, HasSubstr("not localized: 2 repeat an earlier stamp"));
 }
 
