@@ -190,6 +190,7 @@ void BagLog::look_at_scan(const bags::RawMessage& message, MessageKind kind) {
   topic.advancing += scan->header.stamp_ns > topic.newest_stamp_ns ? 1 : 0;
   topic.log_advancing += message.log_time_ns > topic.last_ns ? 1 : 0;
   topic.newest_stamp_ns = std::max(topic.newest_stamp_ns, scan->header.stamp_ns);
+  topic.lags_ns.push_back(message.log_time_ns - scan->header.stamp_ns);
   topic.last_ns = std::max(topic.last_ns, message.log_time_ns);
   if (topic.candidate.beams < record->range_m.size()) {
     topic.candidate.beams = record->range_m.size();
@@ -306,6 +307,7 @@ std::optional<Error> BagLog::choose(const std::filesystem::path& path) {
   const std::string base = base_frame(laser_frame);
   for (ScanTopic& topic : scan_topics_) mount(topic, base);
   if (!odometry->empty()) {
+    set_odometry_clock(*odometry);
     const BagOdometry::Clock clock = common_clock(*odometry);
     odometry_ = {std::move(*odometry), clock};
   }
@@ -527,6 +529,18 @@ std::optional<BagLog::Scan> BagLog::next_scan() {
     if (scan_topics_[scan.topic].slot > 0) return scan;
   }
   return std::nullopt;
+}
+
+/// By that of the scans, where the two differ.
+void BagLog::set_odometry_clock(std::vector<BagPose>& poses) {
+  const auto main = std::ranges::find(scan_topics_, std::uint8_t{1}, &ScanTopic::slot);
+  const std::int64_t ahead_ns = odometry_clock_ahead_ns(std::exchange(main->lags_ns, {}), poses);
+  if (ahead_ns == 0) return;
+  for (BagPose& pose : poses) pose.times.stamp_ns -= ahead_ns;
+  choice_.doubts.push_back(
+      text("the clock of odometry is %.3f s %s that of the scans, by the times "
+           "of recording: corrected",
+           1e-9 * std::abs(static_cast<double>(ahead_ns)), ahead_ns > 0 ? "ahead of" : "behind"));
 }
 
 /// Header stamps, if those of the scans advance and those of odometry are within the same hour.

@@ -48,8 +48,9 @@ class BagLog : public RecordSource {
     std::uint64_t advancing = 0;      ///< Messages with a header stamp newer than all before.
     std::uint64_t log_advancing = 0;  ///< Messages recorded later than all before.
     std::int64_t newest_stamp_ns = 0;
-    bool has_wrong_sign = false;  ///< Of angle_increment.
-    std::uint8_t slot = 0;        ///< Slot of its records; 0: none.
+    std::vector<std::int64_t> lags_ns;  ///< From header stamp to recording.
+    bool has_wrong_sign = false;        ///< Of angle_increment.
+    std::uint8_t slot = 0;              ///< Slot of its records; 0: none.
     std::optional<Mounting> mounting;
     std::optional<sensing::SpatialMounting> profile_mounting;  ///< If its beams are steep.
     bags::Transform base_from_cloud;
@@ -107,6 +108,7 @@ class BagLog : public RecordSource {
   std::string base_frame(const std::string& laser_frame) const;
   void mount(ScanTopic& topic, const std::string& base_frame);
   void list_candidates();
+  void set_odometry_clock(std::vector<BagPose>& poses);
   BagOdometry::Clock common_clock(const std::vector<BagPose>& poses) const;
   void note(const std::string& line);
   void leave_out(const bags::RawMessage& message);

@@ -1,9 +1,41 @@
 #include "common/files/bag_odometry.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace slammot::files {
+
+namespace {
+
+struct Lag {
+  std::int64_t median_ns = 0;
+  bool is_steady = false;
+};
+
+Lag lag_of(std::vector<std::int64_t>& lags_ns) {
+  constexpr std::int64_t kSteady_ns = 200'000'000;  // between the quartiles
+  if (lags_ns.empty()) return {};
+  std::ranges::sort(lags_ns);
+  const std::size_t count = lags_ns.size();
+  return {lags_ns[count / 2], lags_ns[3 * count / 4] - lags_ns[count / 4] < kSteady_ns};
+}
+
+}  // namespace
+
+std::int64_t odometry_clock_ahead_ns(std::vector<std::int64_t> lags_of_scans_ns,
+                                     const std::vector<BagPose>& odometry) {
+  constexpr std::int64_t kOnItsWay_ns = 500'000'000;
+  std::vector<std::int64_t> lags_ns;
+  for (const BagPose& pose : odometry)
+    lags_ns.push_back(pose.times.log_time_ns - pose.times.stamp_ns);
+  const Lag of_scans = lag_of(lags_of_scans_ns);
+  const Lag of_odometry = lag_of(lags_ns);
+  const std::int64_t ahead_ns = of_scans.median_ns - of_odometry.median_ns;
+  const bool is_told =
+      of_scans.is_steady && of_odometry.is_steady && std::abs(ahead_ns) > kOnItsWay_ns;
+  return is_told ? ahead_ns : 0;
+}
 
 BagOdometry::BagOdometry(std::vector<BagPose> poses, Clock clock)
     : poses_(std::move(poses)), by_time_(poses_), clock_(clock) {

@@ -21,6 +21,12 @@ struct BagPose {
   geometry::Pose2 wheel_from_base;
 };
 
+/// How far the clock of odometry's stamps is ahead of that of the scans' [ns], by the times of
+/// recording: computers of one vehicle may differ by seconds. 0 unless the lags of both, from stamp
+/// to recording, are steady and differ by more than a message is on its way.
+std::int64_t odometry_clock_ahead_ns(std::vector<std::int64_t> lags_of_scans_ns,
+                                     const std::vector<BagPose>& odometry);
+
 /// Odometry of a bag between its scans, and at their stamps.
 class BagOdometry {
  public:

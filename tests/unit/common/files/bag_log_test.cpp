@@ -378,6 +378,28 @@ TEST_F(BagLogTest, UsesWhatComesBeforeACut) {
   EXPECT_GT(reading.scans.size(), 15U);
 }
 
+TEST_F(BagLogTest, CorrectsTheClockOfOdometryByTheTimesOfRecording) {
+  for (const double ahead_s : {5.0, -3600.0, 0.2}) {
+    std::vector<MessageSpec> messages;
+    for (int i = 0; i < 40; ++i) {
+      const double time_s = 10000.0 + i * 0.1;
+      messages.push_back({"/odom", "nav_msgs/Odometry", time_s + 0.02,
+                          testing::odometry_message(kWire, time_s + ahead_s, 0.1 * i, 0.0)});
+      messages.push_back(
+          {"/scan", kScan, time_s + 0.02, testing::scan_message(kWire, {.stamp_s = time_s})});
+    }
+    const Reading reading = read(messages);
+    const bool is_corrected = ahead_s != 0.2;  // as long as a message may be on its way
+    EXPECT_EQ(reading.topics.doubts.size(), is_corrected ? 1U : 0U) << ahead_s;
+    if (!is_corrected) continue;
+    EXPECT_THAT(reading.topics.doubts.front(),
+                HasSubstr(ahead_s > 0.0 ? "s ahead of" : "s behind"));
+    ASSERT_EQ(reading.odometry.size(), 40U) << ahead_s;
+    EXPECT_NEAR(1e-9 * static_cast<double>(reading.odometry[20].stamp_ns), 10002.0, 0.02);
+    EXPECT_NEAR(reading.odometry[20].wheel_from_base.x_m, 2.0, 0.01);
+  }
+}
+
 TEST_F(BagLogTest, TakesTheTimeOfRecordingWhereHeadersHaveNone) {
   std::vector<MessageSpec> messages;
   for (int i = 0; i < 10; ++i) {
