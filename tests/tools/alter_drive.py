@@ -67,6 +67,7 @@ ALTERATIONS = (
     flag("--swapped-axes", alter.axes_swapped, "x and y of the odometry swapped"),
     flag("--odometry-millimetres", lambda drive: alter.odometry_scaled(drive, 1000.0), "positions by the wheels in millimetres"),
     flag("--backwards", alter.mounted_backwards, "mounted backwards; said where the format can"),
+    flag("--twice", alter.recorded_twice, "each line again"),
     flag("--compass-headings", alter.headings_of_a_compass, "headings by the wheels clockwise from north"),
     flag("--headings-in-degrees", alter.headings_in_degrees, "of all poses"),
     one("--every", int, "N", alter.every_nth, "every Nth scan only"),

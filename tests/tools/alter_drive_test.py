@@ -401,6 +401,11 @@ class Odometry(AlteredDrive):
             self.assertEqual((x, y), altered[:2])
             self.assertAlmostEqual(0.0, math.remainder(altered[2] + heading - math.pi / 2, 2 * math.pi), places=6)
 
+    def test_recorded_twice_has_each_scan_again(self):
+        altered = alter.recorded_twice(FLASER).scans()
+        self.assertEqual(2 * SCANS, len(altered))
+        self.assertEqual(altered[4], altered[5])
+
     def test_standing_wheels_stand_again_and_again(self):
         altered = alter.standing(FLASER, 1.0, 5.0)
         stood = sum(math.hypot(*motion[:2]) < 1e-9 for motion in motions(altered))

@@ -524,6 +524,11 @@ def headings_late(drive, lateness_s):
                                 for record, time_s in zip(records, times)])
 
 
+def recorded_twice(drive):
+    """Each line again."""
+    return dataclasses.replace(drive, records=tuple(record for record in drive.records for _ in range(1 if isinstance(record, Other) else 2)))
+
+
 def held(drive, period_s):
     """Odometry comes once in so many seconds; what is between has the pose that came last."""
     kept, since_s, poses = None, -math.inf, []

@@ -70,6 +70,7 @@ FURTHER = (
     Way("beams-half", "every second beam", lambda drive, seed: alter.every_nth_beam(drive, 2), takes_information=True),
     Way("beams-quarter", "every fourth beam", lambda drive, seed: alter.every_nth_beam(drive, 4), takes_information=True),
     Way("odometry-millimetres", "odometry in millimetres", lambda drive, seed: alter.odometry_scaled(drive, 1000.0), r"millimet"),
+    Way("twice", "each line recorded twice", lambda drive, seed: alter.recorded_twice(drive), r"recorded again"),
     Way("compass-headings", "headings clockwise from north", lambda drive, seed: alter.headings_of_a_compass(drive), OF_ODOMETRY),
     Way("turns-slipping", "turns by the wheels 0.6x to 1.4x, another every 2 s", lambda drive, seed: alter.turns_slipping(drive, 0.4, seed), OF_ODOMETRY),
     Way("standing-wheels", "wheels stand for 1 s every 20 s", lambda drive, seed: alter.standing(drive, 1.0, 20.0), OF_ODOMETRY, takes_information=True),
