@@ -54,11 +54,16 @@ bool is_tar(std::string_view bytes) {
   return bytes.size() > kMagicAt && bytes.substr(kMagicAt).starts_with("ustar");
 }
 
+bool is_of_text(char c) {
+  constexpr unsigned char kFirstPrintable = 0x20;
+  return static_cast<unsigned char>(c) >= kFirstPrintable || c == '\t' || c == '\r';
+}
+
 /// CR ends every line, as on an old Macintosh.
 bool has_lines_of_cr_only(std::string_view text) {
   const std::size_t first = text.find('\r');
   return first != std::string_view::npos && first + 1 < text.size() &&
-         text.find('\n') == std::string_view::npos;
+         std::ranges::all_of(text, is_of_text);  // so there is no '\n' either
 }
 
 struct CloseGz {

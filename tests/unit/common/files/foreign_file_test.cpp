@@ -58,6 +58,12 @@ TEST_F(ForeignFile, IsNamedWhateverItsNameSays) {
               HasSubstr("git lfs pull"));
 }
 
+TEST_F(ForeignFile, IsNoTextWithBytesThatNoTextHas) {
+  EXPECT_TRUE(foreign_content("a\rb"));
+  EXPECT_FALSE(foreign_content(std::string_view("\x28\xb5\x2f\xfd\x01\rb", 7)))
+      << "compressed bytes may hold a CR, and no LF";
+}
+
 TEST_F(ForeignFile, IsNamedWithinGzip) {
   file_ = folder_ / "drive.log.gz";
   write_gz(file_, straight_drive(10));
