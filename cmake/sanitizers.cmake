@@ -12,6 +12,8 @@ if(SLAMMOT_SANITIZE)
   add_compile_options(-fsanitize=${SLAMMOT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g1)
   # GCC loses track of what an optional holds in instrumented code. Without instrumentation this warning is an error as well.
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  # The thread sanitizer does not see the fences of Boost.Asio.
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
   add_link_options(-fsanitize=${SLAMMOT_SANITIZE})
 
   # Read by ctest, so that every test and every process that a test starts has it.
