@@ -73,7 +73,7 @@ void set_groups(CLI::App& app) {
 /// "help run" as "run --help", "version" as "--version".
 std::vector<std::string> with_options(std::vector<std::string> words) {
   if (words.front() != "help" && words.front() != "version") return words;
-  std::ranges::rotate(words, words.begin() + 1);
+  std::rotate(words.begin(), words.begin() + 1, words.end());
   words.back().insert(0, "--");
   return words;
 }

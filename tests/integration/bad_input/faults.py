@@ -64,7 +64,11 @@ def swap(scans, first, count):
 
 
 def repeat(scans, at, times):
-    scans[at:at] = [scans[at]] * times
+    """With the same stamp, and one reading changed in each: those that are the same are left out when the log is opened."""
+    again = [Scan(scans[at].line()) for _ in range(times)]
+    for number, scan in enumerate(again):
+        scan.words[scan.first_range] = f"{1.0 + 0.01 * number:.2f}"
+    scans[at:at] = again
 
 
 def leave_out(scans, first, duration_s):
