@@ -29,6 +29,7 @@ void add_figures_of_beams(const ScannerSurvey& scanner, const LogPlan& plan,
   figures.median_range_m = scanner.readings.range_quantile_m(plan.max_range_m, 0.5);
   figures.far_range_m = scanner.readings.range_quantile_m(plan.max_range_m, 0.9);
   figures.scans_without_readings = scanner.readings.scans_without_readings();
+  figures.are_of_scans = scanner.scans > 0;
   figures.echo_share = scanner.readings.echo_share(plan.max_range_m);
 }
 

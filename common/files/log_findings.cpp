@@ -125,9 +125,9 @@ void describe_gaps(const LogPlan& plan, std::vector<std::string>& findings) {
   if (figures.has_clock && figures.longest_gap_s > 2.0 &&
       figures.longest_gap_s > kLongGap * figures.scan_period_s)
     findings.push_back(text("no scan for %.1f s", figures.longest_gap_s));
-  if (figures.scans > 0 && figures.echo_share == 0.0)
+  if (figures.are_of_scans && figures.echo_share == 0.0)
     findings.emplace_back("no beam has an echo: odometry alone says how the vehicle moves");
-  else if (figures.scans > 0 && figures.echo_share < 0.2)
+  else if (figures.are_of_scans && figures.echo_share < 0.2)
     findings.push_back(text("only %.0f %% of the beams have an echo", 100.0 * figures.echo_share));
   if (figures.beams > 0 && figures.beams < kFewBeams)
     findings.push_back(

@@ -45,11 +45,12 @@ struct LogFigures {
                                    ///< sensing::comes_by_time().
   double field_of_view_rad = 0.0;  ///< beams * step: 2 pi for a full-circle scanner.
   double max_range_m = 0.0;
-  double median_range_m = 0.0;               ///< Of the echoes.
-  double far_range_m = 0.0;                  ///< 90 % of the echoes are nearer.
-  double scan_period_s = 0.0;                ///< Median.
-  double longest_gap_s = 0.0;                ///< Between two scans.
-  double echo_share = 0.0;                   ///< Of all readings.
+  double median_range_m = 0.0;  ///< Of the echoes.
+  double far_range_m = 0.0;     ///< 90 % of the echoes are nearer.
+  double scan_period_s = 0.0;   ///< Median.
+  double longest_gap_s = 0.0;   ///< Between two scans.
+  bool are_of_scans = false;    ///< Counted in the log's scans; of a scenario only what it says.
+  double echo_share = 0.0;      ///< Of all readings.
   std::uint64_t scans_without_readings = 0;  ///< Blank scans: only NaN, infinity or 0.
   double scan_period_spread = 0.0;  ///< (90th - 10th percentile) / median of the period: 0 for a
                                     ///< steady scanner.

@@ -18,12 +18,23 @@ LogPlan sound_plan() {
                   .has_clock = true,
                   .scan_period_s = 0.1,
                   .longest_gap_s = 0.1,
+                  .are_of_scans = true,
                   .echo_share = 0.9};
   return plan;
 }
 
 TEST(DescribeFindings, IsSilentAboutASoundLog) {
   EXPECT_THAT(describe_findings(sound_plan()), IsEmpty());
+}
+
+TEST(DescribeFindings, NamesScansThatTellNothing) {
+  LogPlan plan = sound_plan();
+  plan.figures.echo_share = 0.0;
+  EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("no beam has an echo")));
+  plan.figures.are_of_scans = false;
+  EXPECT_THAT(describe_findings(plan), IsEmpty()) << "a scenario does not say";
+  plan.figures.beams = 8;
+  EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("scans of 8 beams")));
 }
 
 TEST(DescribeFindings, SaysWhatWasDoneToTheClock) {
