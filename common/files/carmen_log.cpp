@@ -36,10 +36,11 @@ CarmenRecord to_keep(CarmenRecord record) {
 }
 
 Error no_scans(const std::filesystem::path& path, const RecordSource& records,
-               std::uint64_t malformed_lines) {
+               std::uint64_t malformed_lines, std::string_view why_malformed) {
   std::string message = path.string() + ": no laser scan (FLASER or ROBOTLASER1) in " +
                         std::to_string(records.line_number()) + " lines";
   if (malformed_lines > 0) message += ", " + std::to_string(malformed_lines) + " of them malformed";
+  if (!why_malformed.empty()) message += " (one of them: " + std::string(why_malformed) + ")";
   if (records.is_cut()) message += "; the file is cut off or damaged";
   return Error{std::move(message)};
 }
@@ -143,7 +144,8 @@ Result<CarmenLog> CarmenLog::open(const std::filesystem::path& path,
                          options.topics.scanners, options.topics.vertical};
   if (auto fault = find_fault(wish, survey)) return Error{path.string() + ": " + fault->message};
   std::vector<ScannerPlan> scanners = survey.scanners(wish);
-  if (scanners.empty()) return no_scans(path, read, first_pass->malformed_lines);
+  if (scanners.empty())
+    return no_scans(path, read, first_pass->malformed_lines, first_pass->why_malformed);
   if (!wish.main.empty() && !survey.has_scanner(wish.main))
     return Error{path.string() + ": no scanner " + wish.main + " in the log: its main one is " +
                  scanners.front().name};
@@ -174,7 +176,10 @@ Result<CarmenLog::FirstPass> CarmenLog::read_once(const RecordOpener& open,
   pass.records = std::move(*opened);
   std::size_t bytes = 0;
   while (auto record = pass.records->next()) {
-    pass.malformed_lines += std::holds_alternative<MalformedLine>(*record) ? 1 : 0;
+    if (const auto* const malformed = std::get_if<MalformedLine>(&*record)) {
+      ++pass.malformed_lines;
+      if (pass.why_malformed.empty()) pass.why_malformed = malformed->why;
+    }
     pass.survey.add(*record);
     bytes += bytes_of(*record);
     pass.has_kept_all = bytes <= most_kept_bytes;

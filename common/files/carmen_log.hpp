@@ -130,6 +130,7 @@ class CarmenLog {
     std::deque<ReadRecord> kept;
     bool has_kept_all = true;
     std::uint64_t malformed_lines = 0;
+    std::string_view why_malformed;  ///< Of the first one of which it is known.
   };
   using RecordOpener = std::function<Result<std::unique_ptr<RecordSource>>()>;
   static Result<FirstPass> read_once(const RecordOpener& open, std::size_t most_kept_bytes);

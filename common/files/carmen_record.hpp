@@ -98,7 +98,7 @@ struct IgnoredLine {};
 
 /// An invalid record: too few numbers, letters for numbers, or a pose that is not finite.
 struct MalformedLine {
-  std::string_view why = {};  ///< Empty if nothing more is known.
+  std::string_view why = {};  ///< Of static storage; empty if nothing more is known.
 };
 
 using CarmenRecord = std::variant<IgnoredLine, MalformedLine, ParamRecord, ImuRecord,

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <zlib.h>
@@ -70,19 +71,19 @@ struct CloseGz {
   void operator()(gzFile_s* file) const { gzclose_r(file); }
 };
 
-/// Of the content, if it is compressed by gzip. Empty for a file that cannot be read.
-std::string first_unpacked_bytes(const std::filesystem::path& path) {
+struct Beginning {
+  std::string bytes;  ///< Of the content, if it is compressed by gzip.
+  bool is_packed = false;
+};
+
+/// Empty for a file that cannot be read.
+Beginning beginning_of(const std::filesystem::path& path) {
   const std::unique_ptr<gzFile_s, CloseGz> file(gzopen(path.c_str(), "rb"));
   if (!file) return {};
   std::string bytes(kJudgedBytes, '\0');
   const int count = gzread(file.get(), bytes.data(), static_cast<unsigned>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(std::max(count, 0)));
-  return bytes;
-}
-
-bool is_uncompressed(const std::filesystem::path& path) {
-  const std::unique_ptr<gzFile_s, CloseGz> file(gzopen(path.c_str(), "rb"));
-  return file && gzdirect(file.get()) != 0;
+  return {std::move(bytes), gzdirect(file.get()) == 0};
 }
 
 bool is_named_as_log(const std::filesystem::path& path) {
@@ -153,12 +154,12 @@ std::optional<Error> find_foreign(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(status))
     return has_leg_tracker_scans(path) ? std::nullopt : std::optional(no_drive_in(path));
   if (!std::filesystem::is_regular_file(status)) return std::nullopt;
-  const std::string bytes = first_unpacked_bytes(path);
+  const auto [bytes, is_packed] = beginning_of(path);
   const auto content = foreign_content(bytes);
   if (content) return Error{path.string() + ": " + std::string(*content)};
-  const bool is_packed_bag = bytes.starts_with("#ROSBAG") || bytes.starts_with("\x89MCAP0") ||
-                             bytes.starts_with("SQLite format 3");
-  if (is_packed_bag && !is_uncompressed(path))
+  const bool is_bag = bytes.starts_with("#ROSBAG") || bytes.starts_with("\x89MCAP0") ||
+                      bytes.starts_with("SQLite format 3");
+  if (is_bag && is_packed)
     return Error{path.string() + ": it is a bag compressed by gzip: unpack it first (gunzip)"};
   return std::nullopt;
 }

@@ -466,6 +466,8 @@ TEST_F(CarmenLogTest, RefusesFilesWithoutAScanInOneLine) {
   EXPECT_THAT(refusal(""), HasSubstr("the file is empty"));
   EXPECT_THAT(refusal("# CARMEN Logfile\nODOM 0 0 0 0 0 0 1 h 1\n"), HasSubstr("no laser scan"));
   EXPECT_THAT(refusal("FLASER 3 1 2\n"), HasSubstr("1 of them malformed"));
+  EXPECT_THAT(refusal("FLASER 3 1 2 0 0 0 0 0 0 100.5 host 1\n"),
+              HasSubstr("1 of them malformed (one of them: it does not hold as many ranges"));
   EXPECT_THAT(refusal(std::string("\x00\x01\xff\xfe garbage\n\x00", 13)),
               HasSubstr("no laser scan"));
   write_gz(file_, straight_drive(50));
