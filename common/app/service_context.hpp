@@ -137,6 +137,10 @@ class ServiceContext {
     return *writer;
   }
 
+  /// What the bus brings waits so long for what follows it, and is handled together. For a service
+  /// that is not on the way of a scan: it then works when those are done with it.
+  void gather_for(std::chrono::nanoseconds duration) { wait_set_.gather_for(duration); }
+
   /// Registers a periodic callback, first due one period from now. Missed calls are skipped.
   void every(std::chrono::nanoseconds period, std::function<void()> work);
   /// Registers a single callback after `delay`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <thread>
 #include <utility>
 
 #include <dds/dds.h>
@@ -34,6 +35,7 @@ WaitSet::Wake WaitSet::wait(std::chrono::nanoseconds timeout) {
       check(dds_waitset_wait(wait_set_.handle(), nullptr, 0, timeout.count()), "dds_waitset_wait");
   if (is_triggered(stop_.handle())) return Wake::kStopped;
   if (triggered == 0) return Wake::kTimedOut;
+  if (gathering_.count() > 0) std::this_thread::sleep_for(gathering_);
   // Looks at the last one first: where it has samples, those that were written before them for
   // earlier handlers are seen, too, even if all arrive meanwhile.
   std::bitset<kMostInOrder> has_data;

@@ -25,6 +25,10 @@ class WaitSet {
   /// handler throws.
   Wake wait(std::chrono::nanoseconds timeout);
 
+  /// From now on wait() lets so much time pass after samples have come before it handles them:
+  /// those that come soon after are handled with them.
+  void gather_for(std::chrono::nanoseconds duration) { gathering_ = duration; }
+
   /// Makes the wait under way and all later ones return kStopped. From any thread, but not from a
   /// signal handler.
   void stop();
@@ -38,6 +42,7 @@ class WaitSet {
   Entity wait_set_;
   Entity stop_;
   std::vector<Attached> attached_;
+  std::chrono::nanoseconds gathering_{0};
 };
 
 }  // namespace slammot::dds

@@ -15,6 +15,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// More than the pipeline needs for a scan, less than a picture of the page lasts.
+constexpr auto kGathering = 8ms;
 constexpr double kStale_s = 3.0;
 constexpr double kNoScanYet = -1.0;
 
@@ -99,6 +101,7 @@ GatewayService::GatewayService(app::ServiceContext& context, const Settings& set
   for (PageFile& file :
        settings.page_folder.empty() ? built_in_page() : page_in(settings.page_folder))
     server_.put(file.path, std::move(file.content));
+  context_.gather_for(kGathering);
   read_drive();
   read_services();
   Content alive{"text/plain; charset=utf-8", "alive\n"};

@@ -71,6 +71,19 @@ TEST_F(WaitSetOnTheBus, WakesAgainForWhatAHandlerLeftBehind) {
   EXPECT_EQ(stamps.size(), 60U);
 }
 
+TEST_F(WaitSetOnTheBus, GathersWhatComesSoonAfter) {
+  wait_set.on_data(reader, [&] { handle_one_take(); });
+  wait_set.gather_for(500ms);
+  write(1);
+  std::thread other([&] {
+    std::this_thread::sleep_for(5ms);
+    write(2);
+  });
+  EXPECT_EQ(wait_set.wait(kForever), WaitSet::Wake::kHandled);
+  other.join();
+  EXPECT_THAT(stamps, ::testing::ElementsAre(1, 2));
+}
+
 TEST_F(WaitSetOnTheBus, StopsFromAnotherThreadForGood) {
   wait_set.on_data(reader, [&] { handle_one_take(); });
   std::thread other([&] { wait_set.stop(); });
