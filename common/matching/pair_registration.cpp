@@ -10,11 +10,17 @@ namespace slammot::matching {
 std::vector<Eigen::Vector2f> points_of(const std::vector<float>& ranges, const AssumedBeams& beams,
                                        double unit_m, std::size_t most) {
   constexpr float kFarthestM = 30.0F;  // limits the size of the grid
+  const auto range_m_of = [unit_m](float range) { return range * static_cast<float>(unit_m); };
+  const auto counts = [&](float range) {
+    return range_m_of(range) > 0.05F && range_m_of(range) < kFarthestM;
+  };
   std::vector<Eigen::Vector2f> points;
-  const std::size_t stride = std::max<std::size_t>(1, ranges.size() / most);
+  const auto echoes = static_cast<std::size_t>(std::ranges::count_if(ranges, counts));
+  const std::size_t stride =
+      std::max<std::size_t>(1, std::min(ranges.size() / most, 2 * echoes / most));
   for (std::size_t i = 0; i < ranges.size(); i += stride) {
-    const float range_m = ranges[i] * static_cast<float>(unit_m);
-    if (!(range_m > 0.05F && range_m < kFarthestM)) continue;
+    if (!counts(ranges[i])) continue;
+    const float range_m = range_m_of(ranges[i]);
     const auto angle_rad =
         static_cast<float>(beams.first_beam_rad + static_cast<double>(i) * beams.beam_step_rad);
     points.emplace_back(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));

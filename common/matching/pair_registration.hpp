@@ -11,7 +11,8 @@
 
 namespace slammot::matching {
 
-/// Points of a scan in the laser's frame [m], at most about so many, none beyond 30 m.
+/// Points of a scan in the laser's frame [m], at most about so many and, where it has as many
+/// echoes, at least half as many; none beyond 30 m.
 std::vector<Eigen::Vector2f> points_of(const std::vector<float>& ranges, const AssumedBeams& beams,
                                        double unit_m, std::size_t most);
 
