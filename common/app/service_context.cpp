@@ -180,7 +180,8 @@ void ServiceContext::run_for(std::chrono::nanoseconds duration) {
   const SteadyTime end = std::chrono::steady_clock::now() + duration;
   for (SteadyTime now = std::chrono::steady_clock::now(); now < end;
        now = std::chrono::steady_clock::now()) {
-    wait_set_.wait(std::min<std::chrono::nanoseconds>(until_next_timer(), end - now));
+    const auto wait = std::min<std::chrono::nanoseconds>(until_next_timer(), end - now);
+    if (wait_set_.wait(wait) == dds::WaitSet::Wake::kStopped) return;
     run_due_timers();
   }
 }

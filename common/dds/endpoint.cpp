@@ -13,6 +13,12 @@ Entity create_topic(const Participant& participant, const TopicInfo& info) {
 
 }  // namespace
 
+std::uint64_t Endpoint::instance_handle() const {
+  dds_instance_handle_t instance = 0;
+  check(dds_get_instance_handle(handle(), &instance), describe("dds_get_instance_handle"));
+  return instance;
+}
+
 std::string QosMismatch::text() const {
   const std::string count = " (" + std::to_string(total) + " so far)";
   if (policy == "type")

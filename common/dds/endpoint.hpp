@@ -29,6 +29,8 @@ class Endpoint {
  public:
   Entity::Handle handle() const { return entity_.handle(); }
   const TopicInfo& topic() const { return *info_; }
+  /// As in SampleInfo::writer_handle.
+  std::uint64_t instance_handle() const;
 
  protected:
   friend class LoanBase;

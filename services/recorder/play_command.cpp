@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -16,6 +18,8 @@
 #include "common/files/failure.hpp"
 #include "common/files/finite_number.hpp"
 #include "common/recordings/recorded_topic.hpp"
+#include "common/wire/service.hpp"
+#include "services/recorder/live_services.hpp"
 #include "services/recorder/player.hpp"
 #include "services/recorder/record_command.hpp"
 
@@ -126,15 +130,41 @@ void report_position(app::ServiceContext& context, const PlayControl& control,
   });
 }
 
-/// Plays until the end or a signal.
-void play_all(const PlayOptions& options, const mcap::File& file, Player& player,
-              PlayControl& control) {
-  PlayRange range = range_of(options, file);
-  while (player.play(range, control)) {
-    if (options.loops) continue;
-    if (!options.lingers || control.await_command() != PlayControl::Turn::kSeek) return;
-    range.from_ns = control.take_seek();
-  }
+/// Calls `refuse` with the reason where a service of the vehicle runs that publishes what is
+/// played.
+void watch_for_live_services(app::ServiceContext& context, const Player& player,
+                             std::function<void(std::string)> refuse) {
+  context.read(dds::topics::kHeartbeat, app::Input::kOccasional,
+               [&context, &player, played = player.topics(), refuse = std::move(refuse)](
+                   const slammot_Heartbeat& sample, const dds::SampleInfo& info) {
+                 if (player.has_writer(info.writer_handle)) return;
+                 const auto beat = wire::decode(sample);
+                 if (!beat || beat->state == wire::ServiceState::kStopping) return;
+                 const auto topics = contested_topics(beat->name.service, played);
+                 if (topics.empty()) return;
+                 refuse(contest(beat->name.service, context.vehicle_id(), topics));
+               });
+}
+
+/// Plays until the end or a signal, in a thread beside the context's. Returns what went wrong.
+std::string play_all(app::ServiceContext& context, const PlayOptions& options,
+                     const mcap::File& file, Player& player, PlayControl& control) {
+  std::string fault;
+  std::jthread playing([&] {
+    try {
+      PlayRange range = range_of(options, file);
+      while (player.play(range, control)) {
+        if (options.loops) continue;
+        if (!options.lingers || control.await_command() != PlayControl::Turn::kSeek) break;
+        range.from_ns = control.take_seek();
+      }
+    } catch (const std::runtime_error& error) { fault = error.what(); }
+    context.stop();
+  });
+  context.run();
+  control.stop();
+  playing.join();
+  return fault;
 }
 
 app::ServiceOptions service_options(const PlayOptions& options, const mcap::File& file) {
@@ -167,18 +197,16 @@ int play(const PlayOptions& options) {
   if (options.lingers) player.prepare_seeks();
   answer_commands(context, control, file->contents().statistics.start_ns);
   report_position(context, control, file->contents().statistics);
-  context.run_for(std::chrono::nanoseconds(ns_of(options.wait_s)));
   std::string fault;
-  std::jthread playing([&] {
-    try {
-      play_all(options, *file, player, control);
-    } catch (const std::runtime_error& error) { fault = error.what(); }
+  watch_for_live_services(context, player, [&](std::string reason) {
+    fault = std::move(reason);
+    control.stop();
     context.stop();
   });
-  context.run();
-  control.stop();
-  playing.join();
-  if (!fault.empty()) return files::fail(fault);
+  context.run_for(std::chrono::nanoseconds(ns_of(options.wait_s)));
+  const std::string failure =
+      fault.empty() ? play_all(context, options, *file, player, control) : "";
+  if (!fault.empty() || !failure.empty()) return files::fail(fault.empty() ? failure : fault);
   player.wait_for_acknowledgements(kPatience);
   watchdog.arm();
   return report(player, *file);

@@ -1,5 +1,6 @@
 #include "services/recorder/player.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/dds/cdr_walk.hpp"
@@ -28,6 +29,18 @@ Player::Player(const dds::Participant& participant, const mcap::File& file,
                     std::make_unique<dds::RawWriter>(participant, topic->topic, topic->qos),
                     kept_by(id, topic->qos)};
   }
+}
+
+std::set<std::string> Player::topics() const {
+  std::set<std::string> topics;
+  for (const auto& [id, output] : writers_) topics.insert(file_.contents().channels.at(id).topic);
+  return topics;
+}
+
+bool Player::has_writer(std::uint64_t writer_handle) const {
+  return std::ranges::any_of(writers_, [&](const auto& item) {
+    return item.second.writer->instance_handle() == writer_handle;
+  });
 }
 
 Player::Keeps Player::kept_by(mcap::ChannelId channel, const dds::OfferedQos& qos) const {
@@ -61,9 +74,7 @@ bool Player::play(const PlayRange& range, PlayControl& control) {
 }
 
 PlayControl::Turn Player::play_from(const PlayRange& range, PlayControl& control) {
-  std::set<std::string> topics;
-  for (const auto& [id, output] : writers_) topics.insert(file_.contents().channels.at(id).topic);
-  mcap::MessageCursor cursor(file_, {std::move(topics), range.from_ns, range.to_ns});
+  mcap::MessageCursor cursor(file_, {topics(), range.from_ns, range.to_ns});
   while (const auto message = cursor.next()) {
     const auto turn = control.await(message->head.log_time_ns);
     if (turn != PlayControl::Turn::kPlay) return turn;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,10 @@ class Player {
 
   /// Topics that are played, and those of the selection that cannot be: recorded otherwise.
   std::size_t topic_count() const { return writers_.size(); }
+  std::set<std::string> topics() const;
   const std::vector<std::string>& unplayable() const { return unplayable_; }
+  /// True of this player's own samples.
+  bool has_writer(std::uint64_t writer_handle) const;
 
   /// Plays once, by the log times, as `control` says. What the bus kept for late joiners when the
   /// played part begins, such as the map, is written first; so it is after a seek. False when

@@ -20,6 +20,7 @@ import python_environment
 
 PATIENCE_S = 60
 DOMAIN = str(1 + os.getpid() % 200)
+VEHICLE = "test-car"  # of the publisher
 
 
 class Publisher:
@@ -99,6 +100,22 @@ class Recorder(unittest.TestCase):
                 self.assertLessEqual(set(recorded[topic]), set(again[topic]), topic)
             else:
                 self.assertEqual(recorded[topic], again[topic], topic)
+
+    def test_is_not_played_to_a_vehicle_whose_services_run(self):
+        path, _ = self.record_every_topic()
+        tracking = subprocess.Popen([pathlib.Path(ARGUMENTS.slammot).parent / "slammot-tracking", "--vehicle", VEHICLE, "--domain", DOMAIN,
+                                     "--state-dir", self.folder / "state"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            self.assertIn(run("health", "tracking", "--vehicle", VEHICLE, "--domain", DOMAIN).returncode, (0, 3))
+            refused = run("play", path, "--domain", DOMAIN)
+            self.assertEqual(1, refused.returncode)
+            self.assertIn(f"tracking of vehicle {VEHICLE} runs on this bus", refused.stderr)
+            rest = run("play", path, "--domain", DOMAIN, "--topics", "slammot/laser_scan,slammot/localized_scan")
+            self.assertEqual(0, rest.returncode, rest.stderr)
+            self.assertIsNone(tracking.poll())
+        finally:
+            tracking.terminate()
+            tracking.wait(PATIENCE_S)
 
     def test_a_killed_recorder_leaves_a_file_that_is_recovered(self):
         path = self.folder / "killed.mcap"
