@@ -27,6 +27,12 @@ int refuse(const std::string& program, const std::string& why) {
   return kExitUsage;
 }
 
+/// --help and --version are no failures.
+int answer(const CLI::App& command_line, const CLI::ParseError& fault) {
+  if (fault.get_exit_code() == 0) return command_line.exit(fault);
+  return refuse(command_line.get_name(), std::string(fault.what()) + " (see --help)");
+}
+
 /// The state is in use by another process.
 class InUse : public std::runtime_error {
  public:
@@ -101,6 +107,9 @@ int serve_or_say_why_not(const std::string& program, const ServiceDescription& d
     return serve(description, options);
   } catch (const StartupFailure& failure) {
     return refuse(program, failure.what());
+  } catch (const NotNow& failure) {
+    refuse(program, failure.what());
+    return kExitFailure;
   } catch (const InUse& in_use) {
     refuse(program, in_use.what());
     return kExitInUse;
@@ -126,7 +135,9 @@ int run_service(int argc, char** argv, const ServiceDescription& description) {
     return "Settings of --config:\n" +
            config::explanation_lines(config::explain(description.stages));
   });
-  CLI11_PARSE(command_line, argc, argv);
+  try {
+    command_line.parse(argc, argv);
+  } catch (const CLI::ParseError& fault) { return answer(command_line, fault); }
 
   if (const auto fault = load_config(options, description.stages)) return refuse(program, *fault);
   if (options.print_config) std::cout << config::print(description.stages);

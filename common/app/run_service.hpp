@@ -22,6 +22,13 @@ class StartupFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a service needs is not to be had now, such as room on a disk: one line for the user, then
+/// exit code kExitFailure, so that a supervisor tries again. Thrown by constructors of services.
+class NotNow : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Parameters of a service's main.
 struct ServiceDescription {
   std::string name;     ///< Of the service on the bus.

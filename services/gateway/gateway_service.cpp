@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <CLI/CLI.hpp>
+#include <boost/asio/ip/address.hpp>
 
 #include "common/app/log.hpp"
 #include "common/app/system_clock.hpp"
@@ -24,6 +25,13 @@ bool is_loopback_address(const std::string& address) {
   return address.starts_with("127.") || address == "::1";
 }
 
+/// Empty for an address.
+std::string fault_of_address(const std::string& text) {
+  boost::system::error_code fault;
+  boost::asio::ip::make_address(text, fault);
+  return fault ? "'" + text + "' is no address such as 192.168.1.7" : "";
+}
+
 WebServerSettings server_settings(const GatewayService::Settings& settings, BusCalls& calls) {
   WebServerSettings server = settings.server;
   server.access.token = settings.token;
@@ -39,11 +47,14 @@ std::unique_ptr<WebServer> start_server(const WebServerSettings& settings) {
   try {
     auto server = std::make_unique<WebServer>(settings);
     const bool is_local = is_loopback_address(settings.address);
-    app::log_info("serves http://{}:{}/", is_local ? "localhost" : settings.address,
-                  server->port());
+    const bool has_colons = settings.address.find(':') != std::string::npos;
+    const std::string host = has_colons ? "[" + settings.address + "]" : settings.address;
+    app::log_info("serves http://{}:{}/", is_local ? "localhost" : host, server->port());
     if (!is_local) app::log_info("remote addresses add ?token={}", settings.access.token);
     return server;
-  } catch (const std::runtime_error& fault) { throw app::StartupFailure(fault.what()); }
+  } catch (const std::invalid_argument& fault) {
+    throw app::StartupFailure(fault.what());
+  } catch (const std::runtime_error& fault) { throw app::NotNow(fault.what()); }
 }
 
 /// Tells a standby from its leader, which often has the same name.
@@ -78,7 +89,8 @@ void GatewayService::add_options(CLI::App& command_line, Settings& settings) {
   command_line
       .add_option("--trust", settings.server.access.trusted_addresses,
                   "Remote addresses that need no token")
-      ->type_name("ADDRESS");
+      ->type_name("ADDRESS")
+      ->check(CLI::Validator(fault_of_address, ""));
   command_line
       .add_option("--origin", settings.server.access.origins,
                   "Pages of other servers that may connect, such as https://viewer.example.org")
@@ -87,8 +99,10 @@ void GatewayService::add_options(CLI::App& command_line, Settings& settings) {
       .add_option("--host", settings.server.access.host_names,
                   "Names under which this machine is reached without a token, besides localhost")
       ->type_name("NAME");
-  command_line.add_option("--page", settings.page_folder,
-                          "Serve the page from this folder instead of the built-in one");
+  command_line
+      .add_option("--page", settings.page_folder,
+                  "Serve the page from this folder instead of the built-in one")
+      ->check(CLI::ExistingDirectory);
 }
 
 GatewayService::GatewayService(app::ServiceContext& context, const Settings& settings)

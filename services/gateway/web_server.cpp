@@ -23,7 +23,7 @@ std::string new_session() {
 tcp::endpoint endpoint_of(const WebServerSettings& settings) {
   boost::system::error_code error;
   const auto address = boost::asio::ip::make_address(settings.address, error);
-  if (error) throw std::runtime_error("not an address: " + settings.address);
+  if (error) throw std::invalid_argument("not an address: " + settings.address);
   return {address, settings.port};
 }
 

@@ -27,7 +27,7 @@ Store open_store(const app::ServiceContext& context, const MapStoreService::Sett
   const auto file =
       settings.database.empty() ? context.options().state_dir / "map.sqlite" : settings.database;
   auto opened = Store::open(file, settings.config);
-  if (const auto* fault = std::get_if<std::string>(&opened)) throw app::StartupFailure(*fault);
+  if (const auto* fault = std::get_if<std::string>(&opened)) throw app::NotNow(*fault);
   Store store = std::move(std::get<Store>(opened));
   if (settings.map_id && !store.make_latest(context.vehicle_id(), {*settings.map_id})) {
     const std::string why = store.last_fault().empty()
@@ -137,7 +137,21 @@ void MapStoreService::defer(flow::Submap submap) {
   context_.status().counter("unwritten_submaps") = unwritten_.size();
 }
 
+void MapStoreService::keep_file() {
+  switch (store_.keep_file()) {
+    case Store::FileState::kThere: break;
+    case Store::FileState::kWrittenAnew:
+      context_.warn("deleted_databases", "the database was deleted: written anew");
+      break;
+    case Store::FileState::kGone:
+      context_.status().set_trouble("database file", store_.last_fault());
+      return;
+  }
+  context_.status().clear_trouble("database file");
+}
+
 void MapStoreService::retry() {
+  keep_file();
   while (!unwritten_.empty() && store(unwritten_.front())) unwritten_.pop_front();
   traffic_.retry();
   context_.status().counter("unwritten_submaps") = unwritten_.size();

@@ -47,7 +47,7 @@ class MapStoreService {
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);
 
-  /// Throws app::StartupFailure if the database cannot be used.
+  /// Throws app::NotNow if the database cannot be used, app::StartupFailure if it has no such map.
   MapStoreService(app::ServiceContext& context, const Settings& settings);
 
  private:
@@ -55,6 +55,7 @@ class MapStoreService {
   void take(const slammot_SubmapTile& tile);
   bool store(const flow::Submap& submap);
   void defer(flow::Submap submap);
+  void keep_file();
   void retry();
   void read_stored();
   void note(const flow::Submap& submap);

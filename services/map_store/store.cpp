@@ -64,22 +64,23 @@ std::variant<Store, std::string> Store::open(const std::filesystem::path& file,
   sqlite3* handle = nullptr;
   const int result =
       sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
-  Store store{std::unique_ptr<sqlite3, Close>(handle)};
+  Store store(std::unique_ptr<sqlite3, Close>(handle), file, config);
   if (result != SQLITE_OK) return file.string() + ": " + sqlite3_errstr(result);
-  if (const auto fault = store.prepare(config)) return file.string() + ": " + *fault;
+  if (const auto fault = store.prepare()) return file.string() + ": " + *fault;
+  store.identity_ = identity_of(file);
   return store;
 }
 
-std::optional<std::string> Store::prepare(const MapStoreConfig& config) {
+std::optional<std::string> Store::prepare() {
   sqlite3* database = database_.get();
   try {
-    sqlite3_busy_timeout(database, static_cast<int>(std::lround(config.busy_timeout_s * 1e3)));
+    sqlite3_busy_timeout(database, static_cast<int>(std::lround(config_.busy_timeout_s * 1e3)));
     Statement(database, "PRAGMA journal_mode = WAL").step();
     // FULL: a commit survives a power failure. At one submap every few seconds the cost is
     // negligible.
     Statement(database, "PRAGMA synchronous = FULL").step();
-    if (config.max_database_mb > 0) {
-      const std::int64_t pages = std::int64_t{config.max_database_mb} * 1024 * 1024 / kPageBytes;
+    if (config_.max_database_mb > 0) {
+      const std::int64_t pages = std::int64_t{config_.max_database_mb} * 1024 * 1024 / kPageBytes;
       Statement(database, "PRAGMA max_page_count = " + std::to_string(pages)).step();
     }
     Statement version(database, "PRAGMA user_version");

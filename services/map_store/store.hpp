@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -69,6 +71,15 @@ class Store {
   /// All vehicles with submaps, sorted.
   std::vector<std::string> vehicles();
 
+  enum class FileState {
+    kThere,
+    kWrittenAnew,  ///< It had been deleted: everything stored is in a new one.
+    kGone,  ///< last_fault() gives the reason; what is stored since is lost with the process.
+  };
+  /// Looks whether the database is still where it was opened. An open file that is deleted can be
+  /// written and read until it is closed, and nobody notices.
+  FileState keep_file();
+
   /// Reason of the last call's failure; empty after success.
   const std::string& last_fault() const { return last_fault_; }
 
@@ -76,12 +87,25 @@ class Store {
   struct Close {
     void operator()(sqlite3* database) const;
   };
-  explicit Store(std::unique_ptr<sqlite3, Close> database) : database_(std::move(database)) {}
+  /// The file itself, whatever its name.
+  struct Identity {
+    dev_t device = 0;
+    ino_t number = 0;
+    bool operator==(const Identity&) const = default;
+  };
+  Store(std::unique_ptr<sqlite3, Close> database, std::filesystem::path file,
+        const MapStoreConfig& config)
+      : database_(std::move(database)), file_(std::move(file)), config_(config) {}
 
-  std::optional<std::string> prepare(const MapStoreConfig& config);
+  static std::optional<Identity> identity_of(const std::filesystem::path& file);
+  std::optional<std::string> write_anew();
+  std::optional<std::string> prepare();
   PutResult put_in_transaction(std::string_view vehicle_id, const flow::Submap& submap);
 
   std::unique_ptr<sqlite3, Close> database_;
+  std::filesystem::path file_;
+  MapStoreConfig config_;
+  std::optional<Identity> identity_;  ///< Of the open file.
   std::string last_fault_;
 };
 

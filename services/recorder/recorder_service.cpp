@@ -105,9 +105,11 @@ RecorderService::RecorderService(app::ServiceContext& context, const Settings& s
   std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file's size is a full disk, no reason to die
   const RecordingOptions options = options_of(settings, context.options());
   path_ = options.path;
+  if (std::filesystem::exists(path_))
+    throw app::StartupFailure(path_.string() + " exists: recordings are never overwritten");
   recording_ = std::make_unique<Recording>(options);
   if (const std::string fault = recording_->fault(); !fault.empty())
-    throw app::StartupFailure("cannot record into " + fault);
+    throw app::NotNow("cannot record into " + fault);
   app::log_info("recording into {}", path_.string());
   read_known_topics();
   look_for_topics();

@@ -214,5 +214,49 @@ TEST_F(StoreTest, RejectsAMapOfAnotherVehicle) {
   EXPECT_EQ(store.maps("car").back().map_id, flow::MapId{7});
 }
 
+TEST_F(StoreTest, SeesThatItsFileIsThere) {
+  Store store = open();
+  store.put("car", example_submap(0));
+  EXPECT_EQ(store.keep_file(), Store::FileState::kThere);
+}
+
+TEST_F(StoreTest, WritesADeletedDatabaseAnew) {
+  Store store = open();
+  store.put("car", of_map(7, example_submap(0)));
+  store.put("car", of_map(3, example_submap(1)));
+  std::filesystem::remove_all(file_.parent_path());
+  EXPECT_EQ(store.keep_file(), Store::FileState::kWrittenAnew);
+  EXPECT_EQ(store.put("car", of_map(3, example_submap(2))), PutResult::kStored);
+  Store again = open();
+  EXPECT_THAT(again.list("car"), ElementsAre(SubmapId{1}, SubmapId{2}));
+  EXPECT_EQ(again.maps("car").size(), 2U);
+  EXPECT_EQ(store.keep_file(), Store::FileState::kThere);
+}
+
+TEST_F(StoreTest, WritesADatabaseAnewWhoseJournalWasLeft) {
+  Store store = open();
+  store.put("car", example_submap(0));
+  std::filesystem::remove(file_);
+  EXPECT_EQ(store.keep_file(), Store::FileState::kWrittenAnew);
+  EXPECT_THAT(open().list("car"), ElementsAre(SubmapId{0}));
+}
+
+TEST_F(StoreTest, LeavesAFileThatReplacedItsOwn) {
+  Store store = open();
+  store.put("car", example_submap(0));
+  std::filesystem::rename(file_, folder_ / "moved.sqlite");
+  std::ofstream(file_) << "of somebody else";
+  EXPECT_EQ(store.keep_file(), Store::FileState::kGone);
+  EXPECT_THAT(store.last_fault(), ::testing::HasSubstr("was replaced by another file"));
+}
+
+TEST_F(StoreTest, SaysWhyADeletedDatabaseCannotBeWrittenAnew) {
+  Store store = open();
+  std::filesystem::remove_all(file_.parent_path());
+  std::ofstream(file_.parent_path()) << "no folder";
+  EXPECT_EQ(store.keep_file(), Store::FileState::kGone);
+  EXPECT_THAT(store.last_fault(), ::testing::HasSubstr("was deleted"));
+}
+
 }  // namespace
 }  // namespace slammot::map_store
