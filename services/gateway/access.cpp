@@ -1,6 +1,8 @@
 #include "services/gateway/access.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <random>
 
 namespace slammot::gateway {
@@ -42,6 +44,21 @@ bool is_own_origin(std::string_view origin, std::string_view host) {
   return false;
 }
 
+/// "%2B" becomes "+". What is no such code stays.
+std::string decoded(std::string_view text) {
+  constexpr int kHexadecimal = 16;
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned code = 0;
+    const char* const begin = text.data() + i + 1;
+    const bool is_code = text[i] == '%' && i + 2 < text.size() &&
+                         std::from_chars(begin, begin + 2, code, kHexadecimal).ptr == begin + 2;
+    result += is_code ? static_cast<char>(code) : text[i];
+    if (is_code) i += 2;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<std::string> origins_of_viewers() {
@@ -69,15 +86,25 @@ std::string_view explanation_of(Verdict verdict) {
   return "";
 }
 
-std::string_view query_value(std::string_view query, std::string_view name) {
+std::string query_value(std::string_view query, std::string_view name) {
   while (!query.empty()) {
     const std::string_view pair = query.substr(0, query.find('&'));
     const std::size_t equals = pair.find('=');
     if (equals != std::string_view::npos && pair.substr(0, equals) == name)
-      return pair.substr(equals + 1);
+      return decoded(pair.substr(equals + 1));
     query.remove_prefix(std::min(pair.size() + 1, query.size()));
   }
   return {};
+}
+
+std::string_view bearer_token(std::string_view authorization) {
+  constexpr std::string_view kScheme = "bearer ";
+  const auto is_same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == b;
+  };
+  const bool is_bearer =
+      std::ranges::equal(authorization.substr(0, kScheme.size()), kScheme, is_same);
+  return is_bearer ? authorization.substr(kScheme.size()) : std::string_view{};
 }
 
 std::string new_token() {

@@ -36,9 +36,13 @@ Verdict verdict_on(const Caller& caller, const AccessRules& rules);
 
 std::string_view explanation_of(Verdict verdict);
 
-/// The value of `name` in "a=1&b=2"; empty if there is none. Without percent decoding: tokens need
-/// none.
-std::string_view query_value(std::string_view query, std::string_view name);
+/// The value of `name` in "a=1&b=2", decoded (RFC 3986, section 2.1; '+' stands for itself); empty
+/// if there is none.
+std::string query_value(std::string_view query, std::string_view name);
+
+/// The token of a header Authorization of the scheme Bearer, in any case (RFC 9110, section 11.1);
+/// empty if there is none.
+std::string_view bearer_token(std::string_view authorization);
 
 /// 128 bits from the operating system, in hexadecimal digits.
 std::string new_token();

@@ -38,19 +38,19 @@ Target target_of(const UpgradeRequest& request) {
   return {target.substr(0, question), target.substr(question + 1)};
 }
 
-std::string_view bearer_of(const UpgradeRequest& request) {
-  constexpr std::string_view kScheme = "Bearer ";
-  const std::string_view value = view(request[http::field::authorization]);
-  return value.starts_with(kScheme) ? value.substr(kScheme.size()) : std::string_view{};
-}
-
 Verdict verdict_on(const UpgradeRequest& request, const Target& target,
                    const boost::asio::ip::address& peer, const AccessRules& rules) {
-  const std::string_view in_query = query_value(target.query, "token");
-  return verdict_on(
-      {peer.to_string(), peer.is_loopback(), view(request[http::field::host]),
-       view(request[http::field::origin]), in_query.empty() ? bearer_of(request) : in_query},
-      rules);
+  const std::string in_query = query_value(target.query, "token");
+  const std::string_view in_header = bearer_token(view(request[http::field::authorization]));
+  return verdict_on({peer.to_string(), peer.is_loopback(), view(request[http::field::host]),
+                     view(request[http::field::origin]), in_query.empty() ? in_header : in_query},
+                    rules);
+}
+
+/// A socket of both families has IPv4 peers as "::ffff:10.0.0.7".
+boost::asio::ip::address plain(const boost::asio::ip::address& peer) {
+  if (!peer.is_v6() || !peer.to_v6().is_v4_mapped()) return peer;
+  return boost::asio::ip::make_address_v4(boost::asio::ip::v4_mapped, peer.to_v6());
 }
 
 Answer plain_answer(http::status status, std::string_view text) {
@@ -99,7 +99,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     beast::error_code error;
     const tcp::endpoint peer = stream_.socket().remote_endpoint(error);
     if (error) return;
-    peer_ = peer.address();
+    peer_ = plain(peer.address());
     read();
   }
 

@@ -58,6 +58,20 @@ TEST(Access, ReadsTheTokenFromTheQuery) {
   EXPECT_EQ(query_value("&&=&token", "token"), "");
 }
 
+TEST(Access, DecodesWhatClientsEncode) {
+  EXPECT_EQ(query_value("token=a%2Bb%2fc%3D", "token"), "a+b/c=");
+  EXPECT_EQ(query_value("token=a+b", "token"), "a+b");
+  EXPECT_EQ(query_value("token=%zz%4", "token"), "%zz%4");
+  EXPECT_EQ(query_value("token=%", "token"), "%");
+}
+
+TEST(Access, ReadsTheTokenFromTheHeaderInAnyCase) {
+  EXPECT_EQ(bearer_token("Bearer abc"), "abc");
+  EXPECT_EQ(bearer_token("bearer abc"), "abc");
+  EXPECT_EQ(bearer_token("Basic abc"), "");
+  EXPECT_EQ(bearer_token("Bear"), "");
+}
+
 TEST(Access, MakesTokensThatDiffer) {
   EXPECT_EQ(new_token().size(), 32U);
   EXPECT_NE(new_token(), new_token());
