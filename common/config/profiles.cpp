@@ -60,14 +60,22 @@ std::optional<fs::path> find_profile(const std::string& name_or_path) {
 
 std::vector<std::string> profile_names() { return names_on(kProfiles); }
 
+std::string names_or_folders(const Shelf& shelf) {
+  const auto joined = [](const auto& items, const auto& text_of) {
+    std::string text;
+    for (const auto& item : items) text += (text.empty() ? "" : ", ") + text_of(item);
+    return text;
+  };
+  const auto itself = [](const std::string& name) { return name; };
+  const std::string names = joined(names_on(shelf), itself);
+  if (!names.empty()) return "there are: " + names;
+  return "there are none in " +
+         joined(folders_of(shelf), [](const fs::path& folder) { return folder.string(); }) + "; " +
+         shelf.variable + " names their folder";
+}
+
 std::string unknown_profile(std::string_view name) {
-  std::string text = "unknown profile '" + std::string(name) + "'; there are: ";
-  std::string_view separator;
-  for (const std::string& known : profile_names()) {
-    text += std::string(separator) + known;
-    separator = ", ";
-  }
-  return text;
+  return "unknown profile '" + std::string(name) + "'; " + names_or_folders(kProfiles);
 }
 
 }  // namespace slammot::config

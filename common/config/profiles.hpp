@@ -26,6 +26,9 @@ std::optional<std::filesystem::path> find_file(const Shelf& shelf, const std::st
 /// Names known to find_file(), sorted.
 std::vector<std::string> names_on(const Shelf& shelf);
 
+/// "there are: indoor, urban", or which folders hold none and how to name another.
+std::string names_or_folders(const Shelf& shelf);
+
 /// Folders that may hold profiles, best first: $SLAMMOT_PROFILES, then share/slammot/profiles of an
 /// installation and deploy/profiles of the source tree around the running program.
 std::vector<std::filesystem::path> profile_folders();

@@ -123,8 +123,9 @@ files::Result<ScenarioConfig> load_scenario(const std::string& name_or_path,
                                             std::optional<std::uint64_t> seed) {
   const auto file = config::find_file(config::kScenarios, name_or_path);
   if (!file)
-    return files::Error{"no scenario is named '" + name_or_path +
-                        "'; slammot simulate --list names them"};
+    return files::Error{"no scenario is named '" + name_or_path + "'; " +
+                        (scenario_names().empty() ? config::names_or_folders(config::kScenarios)
+                                                  : "slammot simulate --list names them")};
   ScenarioConfig scenario;
   if (const auto fault = config::overlay_message_file(
           *file, config::bind_stage("Scenario", scenario_fields(), scenario))) {
