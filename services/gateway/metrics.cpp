@@ -1,7 +1,11 @@
 #include "services/gateway/metrics.hpp"
 
+#include <limits>
+
 #include <prometheus/metric_family.h>
 #include <prometheus/text_serializer.h>
+
+#include "common/app/version.hpp"
 
 namespace slammot::gateway {
 namespace {
@@ -100,8 +104,12 @@ void add_gateway(const HubCounters& hub, const GatewayFigures& figures, Families
   };
   gauge("slammot_gateway_connections", "Open connections.", static_cast<double>(hub.connections));
   gauge("slammot_gateway_viewers", "Open WebSockets.", static_cast<double>(hub.viewers));
-  gauge("slammot_gateway_scan_age_seconds", "Time since the last localized scan; -1: none came.",
-        figures.scan_age_s);
+  gauge("slammot_gateway_scan_age_seconds",
+        "Time since the last localized scan; infinite: none came.",
+        figures.scan_age_s < 0.0 ? std::numeric_limits<double>::infinity() : figures.scan_age_s);
+  auto build = family("slammot_build_info", "1; its labels tell the version.", MetricType::Gauge);
+  add(build, {{"version", std::string(app::kVersion)}}, 1.0);
+  families.push_back(build);
   gauge("process_resident_memory_bytes", "Resident memory of the gateway.",
         figures.memory_mb * 1024.0 * 1024.0);
   total("slammot_gateway_sent_bytes_total", "Sent over WebSockets.", hub.sent_bytes);

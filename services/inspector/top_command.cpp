@@ -101,9 +101,9 @@ int top(const TopOptions& options) {
     const std::string text = services_text(services.update(), app::system_clock_ns()) + "\n" +
                              topics_text(topic_lines(view, interval.count()));
     const bool clears = !options.is_once && ::isatty(STDOUT_FILENO) != 0;
-    std::printf("%sdomain %u, figures of %s s\n\n%s", clears ? "\x1b[H\x1b[2J" : "",
-                options.bus.domain_id, files::fixed_text(interval.count(), 1).c_str(),
-                text.c_str());
+    std::printf("%sdomain %u; services: since their start, topics: figures of %s s\n\n%s",
+                clears ? "\x1b[H\x1b[2J" : "", options.bus.domain_id,
+                files::fixed_text(interval.count(), 1).c_str(), text.c_str());
     std::fflush(stdout);
     if (options.is_once) break;
   }
