@@ -64,6 +64,12 @@ KeyFolder::Identity identity_of(const std::string& line) {
 
 }  // namespace
 
+std::optional<files::Error> KeyFolder::find_lack_of_authority() const {
+  if (std::filesystem::exists(index())) return std::nullopt;
+  return files::Error{folder_.string() + " has no authority: make one with slammot keys init " +
+                      folder_.string()};
+}
+
 std::optional<files::Error> KeyFolder::run(std::vector<std::string> arguments) const {
   const auto output = openssl(folder_, std::move(arguments));
   return output ? std::nullopt : std::optional(output.error());
@@ -107,6 +113,7 @@ std::optional<files::Error> KeyFolder::issue(const std::string& identity, const 
   const std::string request = "ca/" + identity + ".csr.pem";
   const Validity validity{utc(-1, "%Y-%m-%dT%H:%M:%S"), utc(days, "%Y-%m-%dT%H:%M:%S")};
   return in_order(
+      [&] { return find_lack_of_authority(); },
       [&] {
         return run({"req", "-new", "-newkey", "ec", "-pkeyopt", std::string(kCurve), "-noenc",
                     "-keyout", identity + ".key.pem", "-out", request, "-subj",
@@ -121,18 +128,25 @@ std::optional<files::Error> KeyFolder::issue(const std::string& identity, const 
 }
 
 std::optional<files::Error> KeyFolder::revoke(const std::string& identity) const {
-  return in_order(
-      [&] {
-        return run({"ca", "-config", "ca/openssl.cnf", "-revoke", identity + ".cert.pem"});
-      },
-      [&] { return write_revoked(); });
+  const std::string certificate = identity + ".cert.pem";
+  return in_order([&] { return find_lack_of_authority(); },
+                  [&]() -> std::optional<files::Error> {
+                    if (std::filesystem::exists(folder_ / certificate)) return std::nullopt;
+                    return files::Error{(folder_ / certificate).string() +
+                                        " is missing: slammot keys list " + folder_.string() +
+                                        " names what was issued"};
+                  },
+                  [&] {
+                    return run({"ca", "-config", "ca/openssl.cnf", "-revoke", certificate});
+                  },
+                  [&] { return write_revoked(); });
 }
 
 files::Result<std::vector<KeyFolder::Identity>> KeyFolder::identities() const {
-  std::ifstream index(folder_ / "ca" / "index.txt");
-  if (!index) return files::Error{folder_.string() + " has no authority: slammot keys init"};
+  if (auto fault = find_lack_of_authority()) return std::move(*fault);
+  std::ifstream lines(index());
   std::vector<Identity> identities;
-  for (std::string line; std::getline(index, line);) identities.push_back(identity_of(line));
+  for (std::string line; std::getline(lines, line);) identities.push_back(identity_of(line));
   return identities;
 }
 

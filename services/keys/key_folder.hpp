@@ -32,13 +32,16 @@ class KeyFolder {
   std::optional<files::Error> issue(const std::string& identity, const Grant& grant,
                                     int days) const;
 
-  /// Puts the identity's certificate on the list of revoked ones (crl.pem).
+  /// Puts the identity's certificate on the list of revoked ones (crl.pem). Refuses a name that was
+  /// not issued.
   std::optional<files::Error> revoke(const std::string& identity) const;
 
   /// All that were issued, the oldest first.
   files::Result<std::vector<Identity>> identities() const;
 
  private:
+  std::filesystem::path index() const { return folder_ / "ca" / "index.txt"; }
+  std::optional<files::Error> find_lack_of_authority() const;
   std::optional<files::Error> run(std::vector<std::string> arguments) const;
   std::optional<files::Error> sign(const std::string& name, const std::string& xml) const;
   std::optional<files::Error> write_revoked() const;

@@ -57,6 +57,12 @@ TEST_F(Keys, OfARevokedIdentityAreRefused) {
   EXPECT_FALSE(identities->front().is_expired);
 }
 
+TEST_F(Keys, ThatWereNotIssuedAreNotRevoked) {
+  const auto fault = keys_.revoke("tracking");
+  ASSERT_TRUE(fault);
+  EXPECT_THAT(fault->message, HasSubstr("tracking.cert.pem is missing: slammot keys list"));
+}
+
 TEST_F(Keys, AreReadByTheirOwnerOnly) {
   ASSERT_EQ(issue("tracking"), "");
   using std::filesystem::perms;
@@ -77,7 +83,17 @@ TEST(KeysWithoutAuthority, AreRefusedInOneLine) {
   const auto identities = KeyFolder(folder.path()).identities();
   ASSERT_FALSE(identities);
   EXPECT_THAT(identities.error().message, HasSubstr("has no authority"));
-  EXPECT_TRUE(KeyFolder(folder.path()).issue("tracking", grant_of("tracking"), 10));
+  for (const auto& path : {folder.path(), folder.path() / "missing"}) {
+    const KeyFolder keys(path);
+    for (const auto& fault :
+         {keys.issue("tracking", grant_of("tracking"), 10), keys.revoke("tracking")}) {
+      ASSERT_TRUE(fault);
+      EXPECT_EQ(fault->message, path.string() +
+                                    " has no authority: make one with slammot keys "
+                                    "init " +
+                                    path.string());
+    }
+  }
 }
 
 }  // namespace
