@@ -51,6 +51,20 @@ std::filesystem::path settings_of(const MergeOptions& options) {
   return std::filesystem::is_regular_file(settings) ? settings : std::filesystem::path();
 }
 
+/// The result would replace a map that it is made of, or hold one map twice.
+std::optional<files::Error> find_usage_fault(const MergeOptions& options) {
+  const std::filesystem::path first = database_of(options.first);
+  const std::filesystem::path second = database_of(options.second);
+  if (first == second)
+    return files::Error{options.first.string() + " and " + options.second.string() +
+                        " are one map: name two"};
+  const std::filesystem::path output = database_of(options.output);
+  if (output == first || output == second)
+    return files::Error{"--output " + options.output.string() +
+                        ": holds a map that is merged: name another folder"};
+  return std::nullopt;
+}
+
 files::Result<MapWithTraffic> read_map(const std::filesystem::path& path, const Profile& profile) {
   auto submaps = read_stored_map(path, profile.localization.map.cell_size_m);
   if (!submaps) return submaps.error();
@@ -136,6 +150,7 @@ std::optional<files::Error> write(const Merge& merge, const traffic::SubmapTraff
 }
 
 int merge_maps(const MergeOptions& options) {
+  if (const auto fault = find_usage_fault(options)) return files::refuse(fault->message);
   const auto start = Clock::now();
   Profile profile;
   if (auto fault = load_settings(options.profile, settings_of(options), profile))

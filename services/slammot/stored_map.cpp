@@ -72,6 +72,12 @@ std::optional<LatestMap> latest_map_of(Store& store) {
 
 }  // namespace
 
+std::filesystem::path database_of(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::path file = std::filesystem::weakly_canonical(file_of(path), ignored);
+  return ignored ? path : file;
+}
+
 Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& path,
                                                   double cell_size_m) {
   const std::filesystem::path file = file_of(path);

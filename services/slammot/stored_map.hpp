@@ -18,6 +18,9 @@ namespace slammot {
 files::Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& path,
                                                          double cell_size_m);
 
+/// The database that a path means, in one spelling: two paths are of one map if these are equal.
+std::filesystem::path database_of(const std::filesystem::path& path);
+
 /// Writes the submaps as map.sqlite into the folder, which must exist; replaces an existing file.
 std::optional<files::Error> write_stored_map(const std::filesystem::path& folder,
                                              const std::vector<flow::Submap>& submaps,

@@ -1,12 +1,14 @@
 #include "services/slammot/usage.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <CLI/CLI.hpp>
 
 #include "tests/support/command_line_call.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace slammot {
 namespace {
@@ -82,6 +84,20 @@ TEST(CommandLine, StatesWhatAnOptionExpects) {
                      "--seed does not take 'zzz', but a whole number: Seed");
   expect_usage_fault({"run", "--scenario", "block", "--output"}, "--output lacks its value");
   expect_usage_fault({"run", "--iterations", "99", "--output", "x"}, "not in range");
+}
+
+TEST(CommandLine, RefusesToMergeAMapIntoItself) {
+  const testing::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "a");
+  std::filesystem::create_directory(folder / "b");
+  std::filesystem::create_directory_symlink(folder / "a", folder / "link");
+  const std::string a = folder / "a", b = folder / "b", link = folder / "link";
+  expect_usage_fault({"map", "merge", a, a, "--output", folder / "c"}, "are one map");
+  expect_usage_fault({"map", "merge", a, link + "/", "--output", folder / "c"}, "are one map");
+  expect_usage_fault({"map", "merge", a, b, "--output", b + "/../a/"},
+                     "holds a map that is merged");
+  expect_usage_fault({"map", "merge", b, a + "/map.sqlite", "--output", link},
+                     "holds a map that is merged");
 }
 
 TEST(CommandLine, TakesNegativeNumbersForValues) {
