@@ -12,6 +12,8 @@ class Pace {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
+  static constexpr const char* kExpected = "max or a number from 0.01 to 1000";
+
   /// "max", or a multiple of the recorded speed: "1", "0.5", "20". None if the text is neither.
   static std::optional<Pace> parse(const std::string& text);
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/bus_option.hpp"
+#include "common/app/pace.hpp"
 #include "common/config/profiles.hpp"
 #include "common/dds/config.hpp"
 
@@ -19,6 +20,10 @@ std::string fault_of_name(const std::string& name) {
   if (name.empty() || name.size() > kLongestName || !is_plain)
     return "'" + name + "' is not 1 to 32 letters, digits, '_', '-', '.'";
   return {};
+}
+
+std::string fault_of_speed(const std::string& speed) {
+  return Pace::parse(speed) ? std::string() : "'" + speed + "' is not " + Pace::kExpected;
 }
 
 constexpr const char* kBusHelp =
@@ -53,6 +58,12 @@ void add_domain_option(CLI::App& command_line, std::uint32_t& domain_id) {
           kBusHelp)
       ->envname("SLAMMOT_BUS")
       ->check(CLI::Validator(fault_of_name, "NAME"));
+}
+
+void add_speed_option(CLI::App& command_line, std::string& speed, const std::string& meaning) {
+  command_line.add_option("--speed", speed, meaning)
+      ->capture_default_str()
+      ->check(CLI::Validator(fault_of_speed, "X|max"));
 }
 
 void add_service_options(CLI::App& command_line, ServiceOptions& options) {

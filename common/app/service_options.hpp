@@ -46,6 +46,10 @@ std::filesystem::path state_path(const ServiceOptions& options, const std::strin
 /// Adds --domain, also of the environment; `domain_id` must outlive the parsing.
 void add_domain_option(CLI::App& command_line, std::uint32_t& domain_id);
 
+/// Adds --speed of a recorded or simulated drive, which takes what Pace takes; `speed` must outlive
+/// the parsing.
+void add_speed_option(CLI::App& command_line, std::string& speed, const std::string& meaning);
+
 /// Adds the options to the command line. `options` must outlive the parsing.
 void add_service_options(CLI::App& command_line, ServiceOptions& options);
 

@@ -10,6 +10,7 @@
 #include "common/files/animated_png.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/failure.hpp"
+#include "common/files/number_option.hpp"
 #include "common/files/text.hpp"
 #include "services/evaluator/figures.hpp"
 #include "services/evaluator/plot_command.hpp"
@@ -139,7 +140,7 @@ void add_animate_command(CLI::App& app, int& exit_code) {
                           double high, const char* unit) {
     command->add_option(name, value, about)
         ->type_name(unit)
-        ->check(CLI::Range(low, high))
+        ->check(files::number_between(low, high))
         ->capture_default_str();
   };
   command->add_option("result", options->result, "Folder that run or bench wrote")
@@ -150,6 +151,7 @@ void add_animate_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--from", options->from_s,
                    "Begin, in seconds of the drive; default: where the most objects move")
+      ->check(files::not_negative_number())
       ->type_name("S");
   number("--length", options->length_s, "Length, in seconds of the drive", 0.1, 36'000.0, "S");
   number("--speed", options->speed, "Multiple of the recorded rate", 0.01, 1000.0, "X");

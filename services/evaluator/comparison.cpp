@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/number_option.hpp"
 #include "services/evaluator/table_file.hpp"
 
 namespace slammot::evaluator {
@@ -16,7 +17,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 void add_counting_rule(CLI::App& command, metrics::CountingRule& rule) {
   command.add_option("--range", rule.range_m, "Objects farther away do not count [m]")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(files::positive_number());
   command
       .add_option_function<std::pair<double, double>>(
           "--bearings",
@@ -26,21 +27,22 @@ void add_counting_rule(CLI::App& command, metrics::CountingRule& rule) {
           },
           "Only objects with a bearing between these two count: "
           "FROM TO, positive to the left of the vehicle's axis [deg]")
+      ->check(files::any_number())
       ->type_name("DEG DEG");
   command.add_option("--min-speed", rule.least_speed_mps, "Slower objects do not count [m/s]")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(files::not_negative_number());
   command.add_option("--min-points", rule.least_points, "Objects with fewer echoes do not count")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(files::not_negative_number());
   command.add_option("--gate", rule.gate_m, "A match is at most this far from the true box [m]")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(files::positive_number());
   command
       .add_option("--similarity-reach", rule.similarity_reach_m,
                   "Similarity is 1 - distance / this [m]")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(files::positive_number());
 }
 
 }  // namespace
@@ -63,12 +65,12 @@ void add_comparison_options(CLI::App& command, ComparisonOptions& options, Truth
       .add_option("--max-stamp-difference", options.evaluation.max_stamp_difference_s,
                   "Greatest difference of stamps of a pose and its true pose [s]")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(files::positive_number());
   command
       .add_option("--map-tolerance", options.evaluation.map_tolerance_m,
                   "Greatest distance of an occupied cell from a true wall [m]")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(files::positive_number());
 }
 
 std::optional<std::filesystem::path> log_of(const ComparisonOptions& options) {

@@ -9,6 +9,7 @@
 
 #include "common/files/atomic_file.hpp"
 #include "common/files/failure.hpp"
+#include "common/files/number_option.hpp"
 #include "services/evaluator/comparison.hpp"
 #include "services/evaluator/evaluation_text.hpp"
 #include "services/evaluator/vehicle_boxes_csv.hpp"
@@ -77,13 +78,13 @@ void add_eval_command(CLI::App& app, int& exit_code) {
       ->add_option("--wall-cell", options->comparison.evaluation.walls.cell_size_m,
                    "Compare the sharpness of maps with such cells, by the result's poses and by "
                    "the true ones [m]")
-      ->check(CLI::PositiveNumber)
+      ->check(files::positive_number())
       ->type_name("M");
   command
       ->add_option("--wall-range", options->comparison.evaluation.walls.longest_range_m,
                    "Longest range of echoes in those maps [m]")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(files::positive_number());
   command->callback([options, &exit_code] { exit_code = evaluate_run(*options); });
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/files/atomic_file.hpp"
 #include "common/files/failure.hpp"
+#include "common/files/number_option.hpp"
 #include "services/evaluator/comparison.hpp"
 #include "services/evaluator/doubts.hpp"
 #include "services/evaluator/figures.hpp"
@@ -146,7 +147,7 @@ void add_plot_command(CLI::App& app, int& exit_code) {
       ->add_option("--size", options->size,
                    "Pixels along the longer side of map, tracks, lanes and model")
       ->type_name("N")
-      ->check(CLI::Range(64.0, 16384.0))
+      ->check(files::number_between(64.0, 16384.0))
       ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = plot(*options); });
 }

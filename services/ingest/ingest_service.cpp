@@ -33,9 +33,7 @@ LogSource open_source(const IngestService::Settings& settings) {
 
 app::Pace parse_pace(const std::string& speed) {
   const auto pace = app::Pace::parse(speed);
-  if (!pace)
-    throw app::StartupFailure("--speed " + speed +
-                              ": neither 'max' nor a number from 0.01 to 1000");
+  if (!pace) throw app::StartupFailure("--speed " + speed + ": not " + app::Pace::kExpected);
   return *pace;
 }
 
@@ -63,10 +61,9 @@ void IngestService::add_options(CLI::App& command_line, Settings& settings) {
   command_line.add_option("--input", settings.input,
                           "CARMEN or DP-SLAM log, plain or .gz, or a ROS bag");
   add_topic_options(command_line, settings.topics);
-  command_line
-      .add_option("--speed", settings.speed,
-                  "Multiple of the recorded speed, or 'max': as fast as the other services answer")
-      ->capture_default_str();
+  app::add_speed_option(
+      command_line, settings.speed,
+      "Multiple of the recorded speed, or 'max': as fast as the other services answer");
   command_line.add_flag(
       "--forgive-cut", settings.forgive_cut,
       "Exit code 0 for a truncated log, for supervisors that restart failed processes");

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/files/decimal.hpp"
+#include "common/files/number_option.hpp"
 
 namespace slammot::ingest {
 namespace {
@@ -49,11 +50,13 @@ void add_topic_options(CLI::App& command_line, files::TopicOptions& topics) {
       .add_option(
           "--cloud-from", topics.cloud_from_m,
           "Lowest height above the base of a bag's clouds [m]; default: 0.2 below the sensor")
+      ->check(files::any_number())
       ->type_name("M");
   command_line
       .add_option(
           "--cloud-to", topics.cloud_to_m,
           "Highest height above the base of a bag's clouds [m]; default: 0.2 above the sensor")
+      ->check(files::any_number())
       ->type_name("M");
 }
 

@@ -14,6 +14,7 @@
 #include "common/app/system_clock.hpp"
 #include "common/dds/reader.hpp"
 #include "common/files/decimal.hpp"
+#include "common/files/number_option.hpp"
 #include "services/inspector/bus_view.hpp"
 #include "services/inspector/calls.hpp"
 #include "services/inspector/table_text.hpp"
@@ -118,7 +119,7 @@ void add_top_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("top", "Show services and topics: state, rate, age, size, drops, latency");
   add_bus_options(*command, options->bus);
   command->add_option("--period", options->period_s, "Time between two tables [s]")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(files::number_between(0.1, 3600.0))
       ->capture_default_str();
   command->add_flag("--once", options->is_once, "Print one table and end");
   command->callback([options, &exit_code] { exit_code = guarded([&] { return top(*options); }); });

@@ -15,6 +15,7 @@
 #include "common/files/decimal.hpp"
 #include "common/files/failure.hpp"
 #include "services/inspector/bus_options.hpp"
+#include "common/files/number_option.hpp"
 #include "services/inspector/bus_view.hpp"
 #include "services/inspector/calls.hpp"
 #include "services/inspector/sample_text.hpp"
@@ -126,7 +127,8 @@ CLI::App* add(CLI::App& app, const char* name, const char* purpose, TopicOptions
 
 void add_topic(CLI::App& command, TopicOptions& options, const char* meaning_of_count) {
   command.add_option("topic", options.topic, "Name, with or without slammot/")->required();
-  command.add_option("-n,--count", options.count, meaning_of_count);
+  command.add_option("-n,--count", options.count, meaning_of_count)
+      ->check(files::not_negative_number());
 }
 
 void add_measuring(CLI::App& app, const char* name, const char* purpose, int& exit_code,
@@ -135,7 +137,7 @@ void add_measuring(CLI::App& app, const char* name, const char* purpose, int& ex
   CLI::App* const command = add(app, name, purpose, *options);
   add_topic(*command, *options, "End after so many lines; default: Ctrl-C ends it");
   command->add_option("--period", options->period_s, "Time of each line [s]")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(files::number_between(0.1, 3600.0))
       ->capture_default_str();
   command->callback([options, line_of, &exit_code] {
     exit_code = guarded([&] { return measure(*options, line_of); });

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/log.hpp"
+#include "common/files/number_option.hpp"
 #include "common/wire/scan_labels.hpp"
 #include "common/wire/segmented_scan.hpp"
 #include "common/wire/sensor.hpp"
@@ -46,13 +47,14 @@ void LocalizationService::add_options(CLI::App& command_line, Settings& settings
           "--map-patience", settings.map_patience_s,
           "With --continue-map: without news of that map for so long [s], a drive begins its own")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(files::number_between(0.1, 3600.0));
   command_line.add_flag("--examined-log", settings.log_is_examined,
                         "The scans are of a log that ingest has examined as a whole: lateness of "
                         "odometry is not looked for while driving");
   command_line
       .add_option("--drive-id", settings.drive_ids,
                   "Ids of its drives, in their order, in place of the clock's: to repeat a drive")
+      ->check(files::not_negative_number())
       ->type_name("ID");
 }
 

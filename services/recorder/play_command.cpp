@@ -17,6 +17,7 @@
 #include "common/dds/exit_watchdog.hpp"
 #include "common/files/failure.hpp"
 #include "common/files/finite_number.hpp"
+#include "common/files/number_option.hpp"
 #include "common/recordings/recorded_topic.hpp"
 #include "common/wire/service.hpp"
 #include "services/recorder/live_services.hpp"
@@ -179,10 +180,7 @@ app::ServiceOptions service_options(const PlayOptions& options, const mcap::File
 int play(const PlayOptions& options) {
   const auto file = mcap::File::open(options.file);
   if (!file) return files::fail(file.error().message);
-  const auto pace = app::Pace::parse(options.speed);
-  if (!pace)
-    return files::fail("--speed is max or a number from 0.01 to 1000, not " + options.speed);
-  PlayControl control(*pace, speed_of(options.speed));
+  PlayControl control(app::Pace::parse(options.speed).value(), speed_of(options.speed));
   dds::ExitWatchdog watchdog;
   app::set_up_log("player");
   app::ServiceContext context("player", service_options(options, *file));
@@ -225,15 +223,14 @@ void add_play_command(CLI::App& app, int& exit_code) {
       "play", "Play a recording onto the bus: the same bytes, source times and QoS");
   const auto options = std::make_shared<PlayOptions>();
   command->add_option("file", options->file, "Recording")->required()->type_name("FILE");
-  command->add_option("--speed", options->speed, "Multiple of the recorded speed, or max")
-      ->capture_default_str();
+  app::add_speed_option(*command, options->speed, "Multiple of the recorded speed, or max");
   command
       ->add_option("--from", options->from_s, "Begin so many seconds after the recording's start")
-      ->check(CLI::NonNegativeNumber)
+      ->check(files::seconds_option())
       ->capture_default_str();
   command
       ->add_option("--duration", options->duration_s, "End after so many recorded seconds; 0: all")
-      ->check(CLI::NonNegativeNumber)
+      ->check(files::seconds_option())
       ->capture_default_str();
   command->add_flag("--loop", options->loops, "Begin again at the end, until Ctrl-C");
   command->add_flag("--linger", options->lingers,
@@ -249,7 +246,7 @@ void add_play_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--wait", options->wait_s,
                    "Seconds before the first message, for readers to join")
-      ->check(CLI::NonNegativeNumber)
+      ->check(files::seconds_option())
       ->capture_default_str();
   app::add_domain_option(*command, options->domain_id);
   command->callback([options, &exit_code] { exit_code = play_or_fail(*options); });

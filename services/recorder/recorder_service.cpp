@@ -11,6 +11,7 @@
 #include "common/app/system_clock.hpp"
 #include "common/app/version.hpp"
 #include "common/config/profiles.hpp"
+#include "common/files/number_option.hpp"
 
 namespace slammot::recorder {
 namespace {
@@ -92,7 +93,7 @@ void RecorderService::add_options(CLI::App& command_line, Settings& settings) {
       ->capture_default_str();
   command_line
       .add_option("--duration", settings.duration_s, "Ends after so many seconds; 0: when stopped")
-      ->check(CLI::NonNegativeNumber)
+      ->check(files::seconds_option())
       ->capture_default_str();
 }
 

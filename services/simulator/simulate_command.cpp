@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/files/atomic_file.hpp"
+#include "common/files/number_option.hpp"
 #include "common/files/street_file.hpp"
 #include "common/simulation/path.hpp"
 #include "common/simulation/street_plan.hpp"
@@ -131,8 +132,10 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("simulate", "Simulate a drive and write its log and ground truth");
   command->add_flag("--list", options->list, "List the scenarios");
   command->add_option("scenario", options->scenario, "Name of the scenario, or a file");
-  command->add_option("--seed", options->seed,
-                      "Seed of world, traffic and noise; default: the scenario's own");
+  command
+      ->add_option("--seed", options->seed,
+                   "Seed of world, traffic and noise; default: the scenario's own")
+      ->check(files::not_negative_number());
   command->add_option("--output", options->output,
                       "Folder for NAME.log, .tum, .objects.csv and .walls.csv");
   command->add_flag("--hits", options->hits,

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/app/log.hpp"
+#include "common/files/number_option.hpp"
 #include "common/wire/text.hpp"
 #include "services/simulator/scenario_files.hpp"
 
@@ -34,9 +35,7 @@ simulation::ScenarioConfig scenario_of(const SimulatorService::Settings& setting
 
 app::Pace parse_pace(const std::string& speed) {
   const auto pace = app::Pace::parse(speed);
-  if (!pace)
-    throw app::StartupFailure("--speed " + speed +
-                              ": neither 'max' nor a number from 0.01 to 1000");
+  if (!pace) throw app::StartupFailure("--speed " + speed + ": not " + app::Pace::kExpected);
   return *pace;
 }
 
@@ -55,21 +54,22 @@ std::uint64_t new_drive_id() {
 void SimulatorService::add_options(CLI::App& command_line, Settings& settings) {
   command_line.add_option("--scenario", settings.scenario,
                           "Name (slammot simulate --list) or file");
-  command_line.add_option("--seed", settings.seed,
-                          "Seed of world, traffic and noise; default: the scenario's own");
+  command_line
+      .add_option("--seed", settings.seed,
+                  "Seed of world, traffic and noise; default: the scenario's own")
+      ->check(files::not_negative_number());
   command_line
       .add_option("--ride", settings.ride,
                   "Index of the scenario's vehicle with scanners; 0: the first")
       ->check(CLI::Range(0, 100));
-  command_line
-      .add_option("--speed", settings.speed,
-                  "Multiple of the simulated clock, or 'max': as fast as the other services answer")
-      ->capture_default_str();
+  app::add_speed_option(
+      command_line, settings.speed,
+      "Multiple of the simulated clock, or 'max': as fast as the other services answer");
   command_line
       .add_option("--wait-for-services", settings.wait_for_services_s,
                   "Longest time to wait for other services before the first scan [s]")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(files::number_between(0.0, 3600.0));
   command_line.add_flag("--linger", settings.linger,
                         "Stay after the end of the drive until stopped");
 }

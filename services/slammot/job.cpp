@@ -14,6 +14,7 @@
 #include "common/files/atomic_file.hpp"
 #include "common/files/log_findings.hpp"
 #include "common/files/log_profile.hpp"
+#include "common/files/number_option.hpp"
 #include "services/evaluator/report_command.hpp"
 #include "services/ingest/log_source.hpp"
 #include "services/ingest/topic_arguments.hpp"
@@ -132,6 +133,7 @@ void add_job_options(CLI::App& command, JobOptions& options) {
   command
       .add_option("--seed", options.seed,
                   "Seed of world, traffic and noise; default: the scenario's own")
+      ->check(files::not_negative_number())
       ->type_name("N");
   command.add_option("--output", options.output, "Folder for the results; created if missing")
       ->required()

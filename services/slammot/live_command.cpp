@@ -13,6 +13,7 @@
 
 #include "common/app/bus_option.hpp"
 #include "common/app/stop_signal.hpp"
+#include "common/app/service_options.hpp"
 #include "common/files/failure.hpp"
 #include "services/simulator/scenario_files.hpp"
 #include "services/slammot/command_line.hpp"
@@ -85,8 +86,7 @@ void add_live_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<LiveOptions>();
   command->add_option("--scenario", options->scenario, "Name (slammot simulate --list) or file")
       ->capture_default_str();
-  command->add_option("--speed", options->speed, "Multiple of the simulated clock")
-      ->capture_default_str();
+  app::add_speed_option(*command, options->speed, "Multiple of the simulated clock, or max");
   command->add_option("--port", options->port, "Port of the live view")->capture_default_str();
   command
       ->add_option("--domain", options->domain_id,

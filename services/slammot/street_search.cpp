@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/files/finite_number.hpp"
+#include "common/files/number_option.hpp"
 #include "common/files/street_file.hpp"
 
 namespace slammot {
@@ -72,12 +73,13 @@ void add_street_options(CLI::App& command, StreetOptions& options) {
                   "Where the drive begins, for --streets; default: by GNSS, or anywhere")
       ->type_name("LATITUDE,LONGITUDE");
   command.add_option("--near-within", options.within_m, "Error of --near [m]")
-      ->check(CLI::Range(1.0, 1e5))
+      ->check(files::number_between(1.0, 1e5))
       ->capture_default_str();
   command
       .add_option("--x-from-east", options.x_from_east_rad,
                   "Direction of the map's x axis from east, counter-clockwise, with --near; "
                   "default: by compass or GNSS of the drive, or any")
+      ->check(files::any_number())
       ->type_name("RAD");
 }
 

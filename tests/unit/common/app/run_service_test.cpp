@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <CLI/CLI.hpp>
 
+#include "common/app/service_options.hpp"
+#include "common/files/number_option.hpp"
 #include "tests/support/dds.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -18,6 +20,8 @@ using ::testing::HasSubstr;
 struct ExampleService {
   struct Settings {
     int max_database_mb = 1;
+    std::string speed = "1";
+    double patience_s = 1.0;
   };
   static constexpr const char* kName = "map_store";
   static constexpr const char* kPurpose = "Stands for a service.";
@@ -26,7 +30,11 @@ struct ExampleService {
         {"max_database_mb", &Settings::max_database_mb, "Space.", config::kPositive}};
     return {config::bind_stage("map_store", table, settings)};
   }
-  static void add_options(CLI::App&, Settings&) {}
+  static void add_options(CLI::App& command_line, Settings& settings) {
+    add_speed_option(command_line, settings.speed, "Multiple.");
+    command_line.add_option("--patience", settings.patience_s)
+        ->check(files::number_between(0.1, 3600.0));
+  }
   ExampleService(ServiceContext&, const Settings&) { throw StartupFailure("the disk is on fire"); }
 };
 
@@ -102,10 +110,24 @@ TEST_F(RunService, RefusesAnUnknownProfileAndSaysWhichThereAre) {
 }
 
 TEST_F(RunService, RefusesNamesAndDomainsThatTheBusCannotHave) {
-  EXPECT_NE(run({"--vehicle", "my car"}).exit_code, 0);
-  EXPECT_NE(run({"--vehicle", std::string(33, 'x')}).exit_code, 0);
-  EXPECT_NE(run({"--domain", "231"}).exit_code, 0);
-  EXPECT_NE(run({"--no-such-option"}).exit_code, 0);
+  EXPECT_EQ(run({"--vehicle", "my car"}).exit_code, kExitUsage);
+  EXPECT_EQ(run({"--vehicle", std::string(33, 'x')}).exit_code, kExitUsage);
+  EXPECT_EQ(run({"--domain", "231"}).exit_code, kExitUsage);
+  EXPECT_EQ(run({"--no-such-option"}).exit_code, kExitUsage);
+}
+
+TEST_F(RunService, RefusesSpeedsAndNumbersThatMakeNoSense) {
+  for (const char* const speed : {"nan", "-0", "0", "2x", "", "inf", "1e9"}) {
+    const Ran ran = run({"--speed", speed, "--check-config"});
+    EXPECT_EQ(ran.exit_code, kExitUsage) << speed;
+    EXPECT_THAT(ran.err, HasSubstr("is not max or a number from 0.01 to 1000")) << speed;
+  }
+  EXPECT_EQ(run({"--speed", "max", "--check-config"}).exit_code, 0);
+  for (const char* const patience : {"nan", "inf", "-1", "1e300"}) {
+    const Ran ran = run({"--patience", patience, "--check-config"});
+    EXPECT_EQ(ran.exit_code, kExitUsage) << patience;
+    EXPECT_THAT(ran.err, HasSubstr("is not a number from 0.1 to 3600")) << patience;
+  }
 }
 
 TEST_F(RunService, SaysInOneLineWhyAServiceCannotStart) {

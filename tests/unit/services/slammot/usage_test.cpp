@@ -86,6 +86,23 @@ TEST(CommandLine, StatesWhatAnOptionExpects) {
   expect_usage_fault({"run", "--iterations", "99", "--output", "x"}, "not in range");
 }
 
+TEST(CommandLine, RefusesNumbersThatMakeNoSense) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"hz", "laser_scan", "--period", "nan"},
+           {"hz", "laser_scan", "--count", "-1"},
+           {"record", "--duration", "nan"},
+           {"play", "a.mcap", "--wait", "inf"},
+           {"play", "a.mcap", "--speed", "-1"},
+           {"live", "--speed", "-1"},
+           {"live", "--speed", "nan"},
+           {"run", "--scenario", "block", "--output", "x", "--seed", "-1"},
+           {"simulate", "block", "--output", "x", "--seed", "-1"},
+           {"eval", "--result", "a", "--truth", "b", "--range", "nan"},
+           {"eval", "--result", "a", "--truth", "b", "--bearings", "nan", "1"},
+           {"animate", "a", "--from", "nan"}})
+    expect_usage_fault(words, "' is not ");
+}
+
 TEST(CommandLine, RefusesToMergeAMapIntoItself) {
   const testing::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "a");
