@@ -1,12 +1,16 @@
 #include "services/recorder/bag_command.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
+#include "common/files/decimal.hpp"
 #include "common/files/failure.hpp"
+#include "common/files/number_option.hpp"
 #include "services/recorder/bag_files.hpp"
 
 namespace slammot::recorder {
@@ -68,6 +72,7 @@ int verify(const BagOptions& options) {
 
 int say(const WrittenBag& written, const std::string& output) {
   if (!written.fault.empty()) return files::fail(written.fault);
+  if (written.messages == 0) std::fprintf(stderr, "slammot: %s has no message\n", output.c_str());
   std::printf("%s: %llu messages\n", output.c_str(),
               static_cast<unsigned long long>(written.messages));
   return kDone;
@@ -80,28 +85,60 @@ int recover(const BagOptions& options) {
   return say(recover_bag(*file, options.output), options.output);
 }
 
-int cut_or_merge(const BagOptions& options) {
+int write(const std::vector<const mcap::File*>& files, const BagSelection& selection,
+          const BagOptions& options) {
+  const auto compression = mcap::compression_of(options.compression);
+  return say(
+      write_bag(files, selection, options.output, compression.value_or(mcap::Compression::kZstd)),
+      options.output);
+}
+
+std::int64_t nanoseconds_of(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
+
+BagSelection selection_of(const BagOptions& options, std::int64_t start_ns) {
+  BagSelection selection{TopicSelection(options.topics)};
+  if (options.from_s > 0.0) selection.from_ns = start_ns + nanoseconds_of(options.from_s);
+  if (options.duration_s > 0.0)
+    selection.to_ns = start_ns + nanoseconds_of(options.from_s + options.duration_s);
+  return selection;
+}
+
+/// What is selected and not in the file.
+std::optional<std::string> find_fault_of_selection(const BagOptions& options,
+                                                   const mcap::Contents& contents) {
+  for (const std::string& name : options.topics) {
+    const TopicSelection topics({name});
+    if (std::ranges::none_of(contents.channels, [&](const auto& channel) {
+          return topics.contains(channel.second.topic);
+        }))
+      return "no topic is called '" + name + "'; slammot bag info lists them";
+  }
+  const std::int64_t length_ns = contents.statistics.end_ns - contents.statistics.start_ns;
+  if (nanoseconds_of(options.from_s) <= length_ns) return std::nullopt;
+  return "--from is beyond the end: the recording is " +
+         files::fixed_text(static_cast<double>(length_ns) * 1e-9, 1) + " s long";
+}
+
+int cut(const BagOptions& options) {
+  const auto file = mcap::File::open(options.files.front());
+  if (!file) return files::fail(file.error().message);
+  say_damage(*file);
+  if (const auto fault = find_fault_of_selection(options, file->contents()))
+    return files::fail(options.files.front() + ": " + *fault);
+  return write({&*file}, selection_of(options, file->contents().statistics.start_ns), options);
+}
+
+int merge(const BagOptions& options) {
   std::vector<mcap::File> files;
   std::vector<const mcap::File*> pointers;
-  std::int64_t start_ns = std::numeric_limits<std::int64_t>::max();
   for (const std::string& path : options.files) {
     auto file = mcap::File::open(path);
     if (!file) return files::fail(file.error().message);
     say_damage(*file);
-    start_ns = std::min(start_ns, file->contents().statistics.start_ns);
     files.push_back(std::move(*file));
   }
   for (const mcap::File& file : files) pointers.push_back(&file);
-  BagSelection selection{TopicSelection(options.topics)};
-  if (options.from_s > 0.0)
-    selection.from_ns = start_ns + static_cast<std::int64_t>(options.from_s * 1e9);
-  if (options.duration_s > 0.0)
-    selection.to_ns =
-        start_ns + static_cast<std::int64_t>((options.from_s + options.duration_s) * 1e9);
-  const auto compression = mcap::compression_of(options.compression);
-  return say(write_bag(pointers, selection, options.output,
-                       compression.value_or(mcap::Compression::kZstd)),
-             options.output);
+  return write(pointers, {}, options);
 }
 
 CLI::App& add_part(CLI::App& bag, const char* name, const char* purpose, BagOptions& options,
@@ -139,20 +176,20 @@ void add_bag_command(CLI::App& app, int& exit_code) {
       add("recover", "Give a cut or damaged file an end and indexes, with all its sound chunks",
           recover);
   add_output(recovered, *options);
-  CLI::App& cut = add("cut", "Copy a part of the time, or some topics", cut_or_merge);
-  add_output(cut, *options);
-  add_compression(cut, *options);
-  cut.add_option("--from", options->from_s, "Seconds after the start")
-      ->check(CLI::NonNegativeNumber);
-  cut.add_option("--duration", options->duration_s, "Seconds; 0: to the end")
-      ->check(CLI::NonNegativeNumber);
-  cut.add_option("--topics", options->topics,
-                 "Comma-separated; a trailing '*' stands for all "
-                 "that begin like it")
+  CLI::App& part = add("cut", "Copy a part of the time, or some topics", cut);
+  add_output(part, *options);
+  add_compression(part, *options);
+  part.add_option("--from", options->from_s, "Seconds after the start")
+      ->check(files::seconds_option());
+  part.add_option("--duration", options->duration_s, "Seconds; 0: to the end")
+      ->check(files::seconds_option());
+  part.add_option("--topics", options->topics,
+                  "Comma-separated; a trailing '*' stands for all "
+                  "that begin like it")
       ->type_name("NAME,...")
       ->delimiter(',');
-  CLI::App& merged = add("merge", "Join files by their log times", cut_or_merge);
-  merged.get_option("file")->expected(2, kMostFiles);
+  CLI::App& merged = add("merge", "Join files by their log times", merge);
+  merged.get_option("file")->description("Two or more MCAP files")->expected(2, kMostFiles);
   add_output(merged, *options);
   add_compression(merged, *options);
 }

@@ -86,6 +86,15 @@ const CLI::Option* option_in(const CLI::App& command, const std::string& message
   return found;
 }
 
+/// What a message of too few values says.
+std::string lacking(const CLI::Option& option) {
+  const int least = option.get_items_expected_min();
+  if (option.count() == 0 || least < 2)
+    return shown_name(option) + " lacks its value, " + meaning_of(option);
+  return shown_name(option) + " takes at least " + std::to_string(least) + " values, not " +
+         std::to_string(option.count()) + ", " + meaning_of(option);
+}
+
 std::string after_equals(const std::string& message) {
   const std::size_t at = message.find(" = ");
   return at == std::string::npos ? message : message.substr(at + 3);
@@ -160,7 +169,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& fault) {
     what = shown_name(*option) + " does not take '" + after_equals(message) + "', but " +
            meaning_of(*option);
   } else if (option != nullptr && fault.get_name() == "ArgumentMismatch") {
-    what = shown_name(*option) + " lacks its value, " + meaning_of(*option);
+    what = lacking(*option);
   }
   return command + ": " + what + "; " + command + " --help explains";
 }
