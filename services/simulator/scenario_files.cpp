@@ -119,13 +119,17 @@ std::optional<std::string> find_fault(const ScenarioConfig& scenario) {
   return find_fault_of_script(scenario.script);
 }
 
+std::optional<files::Error> find_fault_of_name(const std::string& name_or_path) {
+  if (config::find_file(config::kScenarios, name_or_path)) return std::nullopt;
+  return files::Error{"no scenario is named '" + name_or_path + "'; " +
+                      (scenario_names().empty() ? config::names_or_folders(config::kScenarios)
+                                                : "slammot simulate --list names them")};
+}
+
 files::Result<ScenarioConfig> load_scenario(const std::string& name_or_path,
                                             std::optional<std::uint64_t> seed) {
+  if (auto fault = find_fault_of_name(name_or_path)) return std::move(*fault);
   const auto file = config::find_file(config::kScenarios, name_or_path);
-  if (!file)
-    return files::Error{"no scenario is named '" + name_or_path + "'; " +
-                        (scenario_names().empty() ? config::names_or_folders(config::kScenarios)
-                                                  : "slammot simulate --list names them")};
   ScenarioConfig scenario;
   if (const auto fault = config::overlay_message_file(
           *file, config::bind_stage("Scenario", scenario_fields(), scenario))) {

@@ -28,6 +28,12 @@ void list_scenarios(std::ostream& out) {
   }
 }
 
+std::optional<files::Error> find_usage_fault(const SimulateOptions& options) {
+  if (auto fault = find_fault_of_name(options.scenario)) return fault;
+  if (options.output.empty()) return files::Error{"--output DIR is required"};
+  return std::nullopt;
+}
+
 /// One scenario for each vehicle with scanners: NAME, NAME.2 and so on.
 std::vector<simulation::ScenarioConfig> drives_of(const simulation::ScenarioConfig& scenario) {
   std::vector<simulation::ScenarioConfig> drives{scenario};
@@ -98,13 +104,13 @@ int simulate(const SimulateOptions& options, std::ostream& out, std::ostream& er
     list_scenarios(out);
     return 0;
   }
+  if (const auto fault = find_usage_fault(options)) {
+    err << "slammot simulate: " << fault->message << '\n';
+    return 2;
+  }
   const auto scenario = load_scenario(options.scenario, options.seed);
   if (!scenario) {
     err << "slammot simulate: " << scenario.error().message << '\n';
-    return 1;
-  }
-  if (options.output.empty()) {
-    err << "slammot simulate: --output DIR is required\n";
     return 1;
   }
   if (options.streets) {

@@ -11,6 +11,7 @@
 #include "common/config/explain.hpp"
 #include "common/config/nearest.hpp"
 #include "common/config/print.hpp"
+#include "common/config/profiles.hpp"
 #include "common/files/failure.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/profile.hpp"
@@ -56,14 +57,16 @@ int explain(const std::string& word) {
   const std::vector<config::Explanation> all = default_settings();
   const std::vector<config::Explanation> requested = word.empty() ? all : config::named(word, all);
   if (requested.empty())
-    return files::fail("no setting or group is called '" + word + "'" +
-                       config::hint_at_nearest(word, names_like(word, all)) +
-                       "; slammot config --explain lists all");
+    return files::refuse("no setting or group is called '" + word + "'" +
+                         config::hint_at_nearest(word, names_like(word, all)) +
+                         "; slammot config --explain lists all");
   std::fputs(config::explanation_text(requested).c_str(), stdout);
   return kExitDone;
 }
 
 int print_effective(const ConfigOptions& options) {
+  if (!options.profile.empty() && !config::find_profile(options.profile))
+    return files::refuse(config::unknown_profile(options.profile));
   Profile profile;
   if (const auto fault = load_settings(options.profile, options.config, profile))
     return files::fail(*fault);
@@ -78,9 +81,9 @@ int print_page() {
 
 int show(const ConfigOptions& options) {
   if (int(options.explains) + int(options.is_effective) + int(options.is_page) != 1)
-    return files::fail("config requires one of --explain, --effective and --page");
+    return files::refuse("config requires one of --explain, --effective and --page");
   if (!options.is_effective && (!options.profile.empty() || !options.config.empty()))
-    return files::fail("--profile and --config belong to --effective");
+    return files::refuse("--profile and --config belong to --effective");
   if (options.is_effective) return print_effective(options);
   return options.is_page ? print_page() : explain(options.word);
 }

@@ -55,7 +55,7 @@ std::optional<Error> find_fault_of_source(const JobOptions& options) {
     return Error{"--input and --scenario exclude each other: a drive is recorded or simulated"};
   if (options.seed && options.scenario.empty())
     return Error{"--seed belongs to --scenario: a recorded drive has none"};
-  return std::nullopt;
+  return options.scenario.empty() ? std::nullopt : simulator::find_fault_of_name(options.scenario);
 }
 
 /// A drive before the settings are known.

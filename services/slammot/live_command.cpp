@@ -99,3 +99,5 @@ void add_live_command(CLI::App& app, int& exit_code) {
 }
 
 }  // namespace slammot
+  if (const auto fault = simulator::find_fault_of_name(options.scenario))
+    return files::refuse(fault->message);

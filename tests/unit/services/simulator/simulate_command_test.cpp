@@ -17,8 +17,8 @@ TEST(Simulate, ListsTheScenarios) {
 
 TEST(Simulate, RejectsAnUnknownScenarioInOneLine) {
   std::ostringstream out, err;
-  EXPECT_NE(simulate({.list = false, .scenario = "atlantis", .seed = {}, .output = "x"}, out, err),
-            0);
+  EXPECT_EQ(simulate({.list = false, .scenario = "atlantis", .seed = {}, .output = "x"}, out, err),
+            2);
   EXPECT_EQ(
       err.str(),
       "slammot simulate: no scenario is named 'atlantis'; slammot simulate --list names them\n");
@@ -41,7 +41,7 @@ TEST(Simulate, WritesADriveForEachVehicleWithAScanner) {
 
 TEST(Simulate, RequiresAFolder) {
   std::ostringstream out, err;
-  EXPECT_NE(simulate({.list = false, .scenario = "block", .seed = {}, .output = ""}, out, err), 0);
+  EXPECT_EQ(simulate({.list = false, .scenario = "block", .seed = {}, .output = ""}, out, err), 2);
   EXPECT_NE(err.str().find("--output"), std::string::npos);
 }
 

@@ -53,7 +53,7 @@ TEST_F(ConfigCommand, ExplainsEverySettingWithoutAName) {
 
 TEST_F(ConfigCommand, NamesTheNearestSettingOfAnUnknownName) {
   const Outcome outcome = config_command({"--explain", "celsize_m"});
-  EXPECT_EQ(outcome.exit_code, kExitFault);
+  EXPECT_EQ(outcome.exit_code, kExitUsage);
   EXPECT_EQ(outcome.standard_error,
             "slammot: no setting or group is called 'celsize_m'; the nearest one is 'cell_size_m'; "
             "slammot config --explain lists all\n");
@@ -61,7 +61,7 @@ TEST_F(ConfigCommand, NamesTheNearestSettingOfAnUnknownName) {
 
 TEST_F(ConfigCommand, NamesNoSettingWhereNoneIsNear) {
   const Outcome outcome = config_command({"--explain", "NONSENSE"});
-  EXPECT_EQ(outcome.exit_code, kExitFault);
+  EXPECT_EQ(outcome.exit_code, kExitUsage);
   EXPECT_EQ(outcome.standard_error,
             "slammot: no setting or group is called 'NONSENSE'; "
             "slammot config --explain lists all\n");
@@ -86,13 +86,18 @@ TEST_F(ConfigCommand, RejectsContradictoryOptionsInOneLine) {
        std::vector<std::vector<std::string>>{{},
                                              {"--explain", "side_m", "--effective"},
                                              {"--explain", "--profile", "indoor"},
-                                             {"--effective", "--profile", "moon"},
-                                             {"--effective", "--config", "/nowhere"}}) {
+                                             {"--effective", "--profile", "moon"}}) {
     const Outcome outcome = config_command(words);
-    EXPECT_EQ(outcome.exit_code, kExitFault);
+    EXPECT_EQ(outcome.exit_code, kExitUsage);
     EXPECT_THAT(outcome.standard_error, StartsWith("slammot: "));
     EXPECT_EQ(std::ranges::count(outcome.standard_error, '\n'), 1) << outcome.standard_error;
   }
+}
+
+TEST_F(ConfigCommand, FailsWhereAFileOfSettingsIsMissing) {
+  const Outcome outcome = config_command({"--effective", "--config", "/nowhere"});
+  EXPECT_EQ(outcome.exit_code, kExitFault);
+  EXPECT_EQ(std::ranges::count(outcome.standard_error, '\n'), 1) << outcome.standard_error;
 }
 
 TEST_F(ConfigCommand, MatchesThePageOfTheDocumentation) {

@@ -103,6 +103,15 @@ TEST(CommandLine, RefusesNumbersThatMakeNoSense) {
     expect_usage_fault(words, "' is not ");
 }
 
+TEST(CommandLine, RefusesUnknownScenarios) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"run", "--scenario", "nosuch", "--output", "x"},
+                                             {"bench", "--scenario", "nosuch", "--output", "x"},
+                                             {"live", "--scenario", "nosuch"},
+                                             {"simulate", "nosuch", "--output", "x"}})
+    expect_usage_fault(words, "no scenario is named 'nosuch'");
+}
+
 TEST(CommandLine, RefusesToMergeAMapIntoItself) {
   const testing::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "a");
