@@ -8,13 +8,18 @@
 #include <memory>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
 #include "common/app/bus_option.hpp"
-#include "common/app/stop_signal.hpp"
 #include "common/app/service_options.hpp"
+#include "common/app/stop_signal.hpp"
+#include "common/dds/config.hpp"
+#include "common/dds/participant.hpp"
+#include "common/dds/reader.hpp"
 #include "common/files/failure.hpp"
+#include "common/wire/service.hpp"
 #include "services/simulator/scenario_files.hpp"
 #include "services/slammot/command_line.hpp"
 #include "services/slammot/service_processes.hpp"
@@ -54,7 +59,52 @@ std::vector<ServiceProcess> services_for(const LiveOptions& options, const std::
   return services;
 }
 
+/// Hears from the simulator that its drive has ended.
+class DriveWatch {
+ public:
+  explicit DriveWatch(const LiveOptions& options)
+      : participant_({options.domain_id, "slammot-live", dds::loopback_config(options.bus)}),
+        statuses_(participant_, dds::topics::kStatus) {}
+
+  /// True once, after the end.
+  bool take_end() {
+    const bool had_ended = has_ended_;
+    statuses_.take_each([this](const slammot_ServiceStatus& sample) {
+      const auto status = wire::decode(sample);
+      if (!status || status->name.service != "simulator") return;
+      for (const wire::Counter& counter : status->counters)
+        if (counter.name == "log_finished") has_ended_ = counter.total > 0;
+    });
+    return has_ended_ && !had_ended;
+  }
+
+ private:
+  dds::Participant participant_;
+  dds::Reader<slammot_ServiceStatus> statuses_;
+  bool has_ended_ = false;
+};
+
+/// Keeps the services running until a signal, and says what happens to them.
+int watch(ServiceProcesses& services, DriveWatch& drive, const std::atomic<bool>& is_interrupted) {
+  auto restarts = services.restarts();
+  while (!is_interrupted) {
+    if (const auto fault = services.restart_dead()) return files::fail(*fault);
+    for (const auto& [name, count] : services.restarts()) {
+      if (std::exchange(restarts[name], count) == count) continue;
+      std::fprintf(stderr, "slammot: %s ended unexpectedly and was started again\n", name.c_str());
+    }
+    if (drive.take_end()) {
+      std::printf("the drive has ended; the view stays until Ctrl-C\n");
+      std::fflush(stdout);
+    }
+    std::this_thread::sleep_for(50ms);
+  }
+  return kExitDone;
+}
+
 int live(const LiveOptions& options) {
+  if (const auto fault = simulator::find_fault_of_name(options.scenario))
+    return files::refuse(fault->message);
   std::atomic<bool> is_interrupted = false;
   const app::StopSignal stop_signal([&] { is_interrupted = true; });
   const auto scenario = simulator::load_scenario(options.scenario, std::nullopt);
@@ -65,11 +115,8 @@ int live(const LiveOptions& options) {
   std::printf("live view: http://localhost:%d/  (Ctrl-C ends it)\n", int{options.port});
   std::printf("its services: slammot top --bus %s\n", options.bus.c_str());
   std::fflush(stdout);
-  while (!is_interrupted) {
-    if (const auto fault = services.restart_dead()) return files::fail(*fault);
-    std::this_thread::sleep_for(50ms);
-  }
-  return kExitDone;
+  DriveWatch drive(options);
+  return watch(services, drive, is_interrupted);
 }
 
 int live_or_fail(const LiveOptions& options) {
@@ -99,5 +146,3 @@ void add_live_command(CLI::App& app, int& exit_code) {
 }
 
 }  // namespace slammot
-  if (const auto fault = simulator::find_fault_of_name(options.scenario))
-    return files::refuse(fault->message);
