@@ -1,6 +1,7 @@
 #include "services/inspector/topic_commands.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <map>
@@ -14,8 +15,8 @@
 #include "common/app/stop_signal.hpp"
 #include "common/files/decimal.hpp"
 #include "common/files/failure.hpp"
-#include "services/inspector/bus_options.hpp"
 #include "common/files/number_option.hpp"
+#include "services/inspector/bus_options.hpp"
 #include "services/inspector/bus_view.hpp"
 #include "services/inspector/calls.hpp"
 #include "services/inspector/sample_text.hpp"
@@ -108,9 +109,11 @@ int measure(TopicOptions options, std::string (*line_of)(const TopicFigures&)) {
   view.receive(100ms, false);  // the endpoints find each other
   meter.reset();
   for (std::uint64_t i = 0; !is_stopped && (options.count == 0 || i < options.count); ++i) {
+    const auto begin = std::chrono::steady_clock::now();
     for (auto left = period; left > 0ms && !is_stopped; left -= std::min(left, 100ms))
       view.receive(std::min(left, 100ms), false);
-    const TopicFigures figures = meter.figures(options.period_s);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    const TopicFigures figures = meter.figures(elapsed.count());
     std::printf("%s: %zu samples, %s\n", options.topic.c_str(), figures.samples,
                 figures.samples == 0 ? "silent" : line_of(figures).c_str());
     std::fflush(stdout);

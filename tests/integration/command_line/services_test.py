@@ -1,4 +1,5 @@
-"""Commands that start services: `live` says when a service is started again and when the drive has ended.
+"""Commands that look at running services or start them: `live` says when a service is started again and when the drive has ended, `hz`
+measures by the elapsed time.
 
 Usage: services_test.py SLAMMOT
 """
@@ -76,6 +77,19 @@ class Services(unittest.TestCase):
             os.kill(children_of(live.process.pid)["slammot-detection"], signal.SIGKILL)
             self.assertEqual(live.await_line("detection"), "slammot: detection ended unexpectedly and was started again\n")
             live.await_line("the drive has ended")
+
+    def test_hz_divides_by_the_elapsed_time(self):
+        with tempfile.TemporaryDirectory() as folder, Live(folder, duration_s=600) as live:
+            live.await_line("its services: ")
+            arguments = [PROGRAM, "hz", "laser_scan", "--domain", DOMAIN, "--bus", live.bus]
+            one = subprocess.run([*arguments, "--count", "1", "--period", "2"], capture_output=True, text=True, timeout=PATIENCE_S, check=True)
+            measuring = subprocess.Popen([*arguments, "--period", "100"], stdout=subprocess.PIPE, text=True)
+            time.sleep(4)
+            measuring.send_signal(signal.SIGINT)
+            said = measuring.communicate(timeout=PATIENCE_S)[0]
+            rates = [float(text.split(" samples, ")[1].split(" Hz")[0]) for text in (one.stdout, said)]
+            self.assertGreater(rates[0], 10.0)
+            self.assertAlmostEqual(rates[1] / rates[0], 1.0, delta=0.3)
 
 
 if __name__ == "__main__":
