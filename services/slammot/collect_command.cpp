@@ -1,8 +1,12 @@
 #include "services/slammot/collect_command.hpp"
 
+#include <unistd.h>
+
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 
@@ -12,6 +16,7 @@
 #include "common/app/stop_signal.hpp"
 #include "common/files/atomic_file.hpp"
 #include "common/files/failure.hpp"
+#include "common/files/foreign_file.hpp"
 #include "common/files/run_outputs.hpp"
 #include "services/ingest/topic_arguments.hpp"
 #include "services/slammot/collector.hpp"
@@ -30,12 +35,17 @@ struct CollectOptions : CollectorOptions {
   files::TopicOptions topics;   ///< Must equal those of the player.
 };
 
-/// Stamps of all scans, from the log if it is available, otherwise of the received scans. Also
-/// fills the report's description of the log.
-files::Result<std::vector<std::int64_t>> scans_of_drive(const CollectOptions& options,
-                                                        const Collector& collector,
-                                                        files::RunReport& report) {
-  if (options.input.empty()) return collector.scan_stamps_ns();
+/// A log that is missing is refused before the drive, although it is read after it.
+std::optional<files::Error> find_fault_of_input(const std::filesystem::path& input) {
+  if (input.empty() || std::filesystem::is_directory(input)) return std::nullopt;
+  if (access(input.c_str(), R_OK) != 0)
+    return files::Error{"--input " + input.string() + ": " + std::strerror(errno)};
+  return files::find_foreign(input);
+}
+
+/// Stamps of all scans of the log. Also fills the report's description of it.
+files::Result<std::vector<std::int64_t>> scans_of_log(const CollectOptions& options,
+                                                      files::RunReport& report) {
   files::CarmenLogOptions log_options;
   log_options.topics = options.topics;
   log_options.uses_all_scanners = true;
@@ -57,11 +67,14 @@ int write(const CollectOptions& options, Collector& collector, double wall_s) {
   report.measured.stages = collector.latencies();
   report.measured.wall_s = wall_s;
   report.measured.peak_memory_mb = peak_memory_mb();
-  const auto stamps_ns = scans_of_drive(options, collector, report);
-  if (!stamps_ns) return files::fail(stamps_ns.error().message);
-  const files::RunRecord record = collector.record(*stamps_ns);
+  files::Result<std::vector<std::int64_t>> of_log = collector.scan_stamps_ns();
+  if (!options.input.empty()) of_log = scans_of_log(options, report);
+  const files::RunRecord record = collector.record(of_log ? *of_log : collector.scan_stamps_ns());
   if (const auto fault = files::write_outputs(options.output, record, report))
     return files::fail(fault->message);
+  if (!of_log)
+    return files::fail(of_log.error().message + ": only scans that were received have rows in " +
+                       options.output.string());
   collector.remove_journal();
   std::fputs(describe_outcome(record, report, options.output).c_str(), stdout);
   if (report.faults.is_cut)
@@ -72,6 +85,7 @@ int write(const CollectOptions& options, Collector& collector, double wall_s) {
 }
 
 int collect(const CollectOptions& options) {
+  if (const auto fault = find_fault_of_input(options.input)) return files::fail(*fault);
   const auto start = std::chrono::steady_clock::now();
   std::atomic<Collector*> to_stop = nullptr;
   const app::StopSignal stop_signal([&] {

@@ -1,5 +1,5 @@
 """Commands that look at running services or start them: `live` says when a service is started again and when the drive has ended, `hz`
-measures by the elapsed time.
+measures by the elapsed time, `collect` refuses a log that is missing before it waits for a drive.
 
 Usage: services_test.py SLAMMOT
 """
@@ -90,6 +90,14 @@ class Services(unittest.TestCase):
             rates = [float(text.split(" samples, ")[1].split(" Hz")[0]) for text in (one.stdout, said)]
             self.assertGreater(rates[0], 10.0)
             self.assertAlmostEqual(rates[1] / rates[0], 1.0, delta=0.3)
+
+    def test_collect_refuses_a_missing_log_before_the_drive(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([PROGRAM, "collect", "--output", f"{folder}/out", "--input", f"{folder}/nosuch", "--domain", DOMAIN],
+                                  capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+            self.assertEqual(done.returncode, 1)
+            self.assertEqual(done.stdout, "")
+            self.assertIn("nosuch: No such file", done.stderr)
 
 
 if __name__ == "__main__":
