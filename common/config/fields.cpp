@@ -30,15 +30,16 @@ constexpr std::array<GroupWords, 14> kGroups = {{
     {"", ""},
 }};
 
-std::string in_words(const Range& range) {
+bool has_highest(const Range& range) { return range.highest < kPositive.highest; }
+
+/// What is wrong with a number outside the range.
+std::string in_words(const Range& range, double number) {
   std::ostringstream words;
-  if (range.highest == std::numeric_limits<double>::max()) {
-    if (range.lowest == kPositive.lowest) return "not above 0";
-    if (range.lowest == std::numeric_limits<double>::lowest()) return "not a finite number";
-    words << "below " << range.lowest;
-    return words.str();
-  }
-  words << "outside [" << range.lowest << ", " << range.highest << "]";
+  if (has_highest(range)) words << "outside [" << range.lowest << ", " << range.highest << "]";
+  else if (range.lowest == std::numeric_limits<double>::lowest()) words << "not a finite number";
+  else if (number > range.highest) words << "above " << range.highest;
+  else if (range.lowest == kPositive.lowest && !(number > 0.0)) words << "not above 0";
+  else words << "below " << range.lowest;
   return words.str();
 }
 
@@ -51,17 +52,16 @@ std::string_view description_of(Group group) {
 }
 
 std::string range_in_words(const Range& range) {
-  const bool has_highest = range.highest < std::numeric_limits<double>::max();
   const bool has_lowest = range.lowest > std::numeric_limits<double>::lowest();
   std::ostringstream words;
   if (range.lowest == kPositive.lowest) {
     words << "above 0";
-    if (has_highest) words << " up to " << range.highest;
-  } else if (has_lowest && has_highest) {
+    if (has_highest(range)) words << " up to " << range.highest;
+  } else if (has_lowest && has_highest(range)) {
     words << range.lowest << " to " << range.highest;
   } else if (has_lowest) {
     words << range.lowest << " or more";
-  } else if (has_highest) {
+  } else if (has_highest(range)) {
     words << range.highest << " or less";
   }
   return words.str();
@@ -87,7 +87,7 @@ std::optional<std::string> find_fault(const BoundField& field) {
   const bool inside = *number >= field.range.lowest && *number <= field.range.highest;
   if (inside) return std::nullopt;
   std::ostringstream fault;
-  fault << field.name << " = " << *number << " is " << in_words(field.range) << ": "
+  fault << field.name << " = " << *number << " is " << in_words(field.range, *number) << ": "
         << field.meaning;
   return fault.str();
 }

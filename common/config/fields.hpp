@@ -20,9 +20,9 @@ struct Range {
   double highest = std::numeric_limits<double>::max();
 };
 
-inline constexpr Range kPositive{std::numeric_limits<double>::min(),
-                                 std::numeric_limits<double>::max()};
-inline constexpr Range kNotNegative{0.0, std::numeric_limits<double>::max()};
+/// Squares and products of settings within these limits are finite and not 0.
+inline constexpr Range kPositive{1e-9, 1e9};
+inline constexpr Range kNotNegative{0.0, kPositive.highest};
 inline constexpr Range kShare{0.0, 1.0};
 
 /// What settings are about: the order of listings.

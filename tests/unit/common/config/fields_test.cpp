@@ -47,6 +47,16 @@ TEST(FindFault, TakesZeroForNotPositiveButForNotNegative) {
             "example.resend_after_s = 0 is not above 0: Silence.");
 }
 
+TEST(FindFault, NamesTheLimitOfWhatIsFarTooLargeOrSmall) {
+  ExampleConfig config;
+  config.resend_after_s = 1e300;
+  EXPECT_EQ(find_fault(bind_example(config)),
+            "example.resend_after_s = 1e+300 is above 1e+09: Silence.");
+  config.resend_after_s = 1e-300;
+  EXPECT_EQ(find_fault(bind_example(config)),
+            "example.resend_after_s = 1e-300 is below 1e-09: Silence.");
+}
+
 TEST(BindStage, PointsIntoTheStructItWasGiven) {
   ExampleConfig config;
   const BoundStage stage = bind_example(config);
