@@ -33,14 +33,21 @@ std::optional<std::string> Store::write_anew() {
     std::filesystem::remove(file_.string() + ending, ignored_fault);
   if (file_.has_parent_path())
     std::filesystem::create_directories(file_.parent_path(), ignored_fault);
+  const std::string unfinished = file_.string() + ".unfinished";  // a full disk leaves a part of it
+  std::filesystem::remove(unfinished, ignored_fault);
   try {
     Statement copy(database_.get(), "VACUUM INTO ?");
-    const std::string file = file_.string();
-    copy << std::string_view(file);
+    copy << std::string_view(unfinished);
     copy.step();
-  } catch (const SqliteError& error) { return error.what(); }
+  } catch (const SqliteError& error) {
+    std::filesystem::remove(unfinished, ignored_fault);
+    return error.what();
+  }
+  std::error_code fault;
+  std::filesystem::rename(unfinished, file_, fault);
+  if (fault) return fault.message();
   auto opened = open(file_, config_);
-  if (auto* const fault = std::get_if<std::string>(&opened)) return std::move(*fault);
+  if (auto* const why = std::get_if<std::string>(&opened)) return std::move(*why);
   *this = std::move(std::get<Store>(opened));
   return std::nullopt;
 }

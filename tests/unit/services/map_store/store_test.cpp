@@ -256,6 +256,17 @@ TEST_F(StoreTest, SaysWhyADeletedDatabaseCannotBeWrittenAnew) {
   std::ofstream(file_.parent_path()) << "no folder";
   EXPECT_EQ(store.keep_file(), Store::FileState::kGone);
   EXPECT_THAT(store.last_fault(), ::testing::HasSubstr("was deleted"));
+  std::filesystem::remove(file_.parent_path());
+  EXPECT_EQ(store.keep_file(), Store::FileState::kWrittenAnew);
+}
+
+TEST_F(StoreTest, WritesADatabaseAnewAfterAnAttemptThatDidNotFinish) {
+  Store store = open();
+  store.put("car", example_submap(0));
+  std::filesystem::remove(file_);
+  std::ofstream(file_.string() + ".unfinished") << "cut";
+  EXPECT_EQ(store.keep_file(), Store::FileState::kWrittenAnew);
+  EXPECT_THAT(open().list("car"), ElementsAre(SubmapId{0}));
 }
 
 }  // namespace
