@@ -107,7 +107,7 @@ int serve_or_say_why_not(const std::string& program, const ServiceDescription& d
     return serve(description, options);
   } catch (const StartupFailure& failure) {
     return refuse(program, failure.what());
-  } catch (const NotNow& failure) {
+  } catch (const Unavailable& failure) {
     refuse(program, failure.what());
     return kExitFailure;
   } catch (const InUse& in_use) {

@@ -22,9 +22,10 @@ class StartupFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a service needs is not to be had now, such as room on a disk: one line for the user, then
-/// exit code kExitFailure, so that a supervisor tries again. Thrown by constructors of services.
-class NotNow : public std::runtime_error {
+/// A resource that a service needs is not available, such as room on a disk: one line for the user,
+/// then exit code kExitFailure, so that a supervisor tries again. Thrown by constructors of
+/// services.
+class Unavailable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

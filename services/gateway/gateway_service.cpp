@@ -54,7 +54,7 @@ std::unique_ptr<WebServer> start_server(const WebServerSettings& settings) {
     return server;
   } catch (const std::invalid_argument& fault) {
     throw app::StartupFailure(fault.what());
-  } catch (const std::runtime_error& fault) { throw app::NotNow(fault.what()); }
+  } catch (const std::runtime_error& fault) { throw app::Unavailable(fault.what()); }
 }
 
 /// Tells a standby from its leader, which often has the same name.

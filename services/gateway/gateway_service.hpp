@@ -31,7 +31,7 @@ class GatewayService {
   static std::vector<config::BoundStage> stages(Settings&) { return {}; }
   static void add_options(CLI::App& command_line, Settings& settings);
 
-  /// Throws app::NotNow if the port cannot be served, app::StartupFailure for a wrong address.
+  /// Throws app::Unavailable if the port cannot be served, app::StartupFailure for a wrong address.
   GatewayService(app::ServiceContext& context, const Settings& settings);
 
   std::uint16_t port() const { return server_.port(); }

@@ -27,7 +27,7 @@ Store open_store(const app::ServiceContext& context, const MapStoreService::Sett
   const auto file =
       settings.database.empty() ? context.options().state_dir / "map.sqlite" : settings.database;
   auto opened = Store::open(file, settings.config);
-  if (const auto* fault = std::get_if<std::string>(&opened)) throw app::NotNow(*fault);
+  if (const auto* fault = std::get_if<std::string>(&opened)) throw app::Unavailable(*fault);
   Store store = std::move(std::get<Store>(opened));
   if (settings.map_id && !store.make_latest(context.vehicle_id(), {*settings.map_id})) {
     const std::string why = store.last_fault().empty()

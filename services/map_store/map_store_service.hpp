@@ -47,7 +47,8 @@ class MapStoreService {
   static std::vector<config::BoundStage> stages(Settings& settings);
   static void add_options(CLI::App& command_line, Settings& settings);
 
-  /// Throws app::NotNow if the database cannot be used, app::StartupFailure if it has no such map.
+  /// Throws app::Unavailable if the database cannot be used, app::StartupFailure if it has no such
+  /// map.
   MapStoreService(app::ServiceContext& context, const Settings& settings);
 
  private:

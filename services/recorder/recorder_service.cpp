@@ -110,7 +110,7 @@ RecorderService::RecorderService(app::ServiceContext& context, const Settings& s
     throw app::StartupFailure(path_.string() + " exists: recordings are never overwritten");
   recording_ = std::make_unique<Recording>(options);
   if (const std::string fault = recording_->fault(); !fault.empty())
-    throw app::NotNow("cannot record into " + fault);
+    throw app::Unavailable("cannot record into " + fault);
   app::log_info("recording into {}", path_.string());
   read_known_topics();
   look_for_topics();

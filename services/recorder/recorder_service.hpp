@@ -33,7 +33,7 @@ class RecorderService {
   static std::vector<config::BoundStage> stages(Settings&) { return {}; }
   static void add_options(CLI::App& command_line, Settings& settings);
 
-  /// Throws StartupFailure if the file exists, NotNow if it cannot be made.
+  /// Throws StartupFailure if the file exists, Unavailable if it cannot be made.
   RecorderService(app::ServiceContext& context, const Settings& settings);
   ~RecorderService();
   RecorderService(const RecorderService&) = delete;

@@ -90,6 +90,12 @@ std::optional<std::string> find_fault_of_script(const simulation::ScriptConfig& 
   return std::nullopt;
 }
 
+files::Error unknown_scenario(const std::string& name) {
+  return {"no scenario is named '" + name + "'; " +
+          (scenario_names().empty() ? config::names_or_folders(config::kScenarios)
+                                    : "slammot simulate --list names them")};
+}
+
 }  // namespace
 
 std::optional<std::string> find_fault(const ScenarioConfig& scenario) {
@@ -121,15 +127,13 @@ std::optional<std::string> find_fault(const ScenarioConfig& scenario) {
 
 std::optional<files::Error> find_fault_of_name(const std::string& name_or_path) {
   if (config::find_file(config::kScenarios, name_or_path)) return std::nullopt;
-  return files::Error{"no scenario is named '" + name_or_path + "'; " +
-                      (scenario_names().empty() ? config::names_or_folders(config::kScenarios)
-                                                : "slammot simulate --list names them")};
+  return unknown_scenario(name_or_path);
 }
 
 files::Result<ScenarioConfig> load_scenario(const std::string& name_or_path,
                                             std::optional<std::uint64_t> seed) {
-  if (auto fault = find_fault_of_name(name_or_path)) return std::move(*fault);
   const auto file = config::find_file(config::kScenarios, name_or_path);
+  if (!file) return unknown_scenario(name_or_path);
   ScenarioConfig scenario;
   if (const auto fault = config::overlay_message_file(
           *file, config::bind_stage("Scenario", scenario_fields(), scenario))) {

@@ -191,7 +191,7 @@ TEST_F(MapStoreOnTheBus, TellsATrackingServiceThatNoTracksAreStored) {
 TEST_F(MapStoreOnTheBus, CannotStartWithoutItsDatabase) {
   MapStoreService::Settings settings;
   settings.database = "/proc/no/map.sqlite";
-  EXPECT_THROW(start<MapStoreService>("map_store", settings), app::NotNow);
+  EXPECT_THROW(start<MapStoreService>("map_store", settings), app::Unavailable);
 }
 
 TEST_F(MapStoreOnTheBus, CannotStartWithAnUnknownMap) {
