@@ -15,6 +15,7 @@
 #include "common/app/service_options.hpp"
 #include "common/app/stop_signal.hpp"
 #include "common/dds/exit_watchdog.hpp"
+#include "common/files/decimal.hpp"
 #include "common/files/failure.hpp"
 #include "common/files/finite_number.hpp"
 #include "common/files/number_option.hpp"
@@ -69,6 +70,11 @@ PlayRange range_of(const PlayOptions& options, const mcap::File& file) {
   const std::int64_t from_ns = file.contents().statistics.start_ns + ns_of(options.from_s);
   return {from_ns, options.duration_s > 0.0 ? from_ns + ns_of(options.duration_s)
                                             : std::numeric_limits<std::int64_t>::max()};
+}
+
+double length_s(const mcap::File& file) {
+  const mcap::Statistics& statistics = file.contents().statistics;
+  return static_cast<double>(statistics.end_ns - statistics.start_ns) * 1e-9;
 }
 
 std::optional<double> number_in(std::string_view text) {
@@ -192,6 +198,9 @@ int play(const PlayOptions& options) {
   for (const std::string& topic : player.unplayable())
     std::fprintf(stderr, "slammot: %s was not recorded from this bus: left out\n", topic.c_str());
   if (player.topic_count() == 0) return files::fail(options.file + ": no topic that can be played");
+  if (!player.has_message_in(range_of(options, *file)))
+    return files::fail(options.file + ": no message to play in that time; the recording is " +
+                       files::fixed_text(length_s(*file), 1) + " s long");
   if (options.lingers) player.prepare_seeks();
   answer_commands(context, control, file->contents().statistics.start_ns);
   report_position(context, control, file->contents().statistics);

@@ -80,7 +80,11 @@ PlayControl::Turn Player::play_from(const PlayRange& range, PlayControl& control
     if (turn != PlayControl::Turn::kPlay) return turn;
     write(message->head.channel_id, {message->data, message->head.publish_time_ns});
   }
-  return PlayControl::Turn::kPlay;
+  return control.is_stopped() ? PlayControl::Turn::kStop : PlayControl::Turn::kPlay;
+}
+
+bool Player::has_message_in(const PlayRange& range) const {
+  return mcap::MessageCursor(file_, {topics(), range.from_ns, range.to_ns}).next().has_value();
 }
 
 KeyOf Player::key_of() const {

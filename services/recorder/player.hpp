@@ -39,6 +39,8 @@ class Player {
   std::size_t topic_count() const { return writers_.size(); }
   std::set<std::string> topics() const;
   const std::vector<std::string>& unplayable() const { return unplayable_; }
+  /// False where nothing of the chosen topics was recorded in that time.
+  bool has_message_in(const PlayRange& range) const;
   /// True of this player's own samples.
   bool has_writer(std::uint64_t writer_handle) const;
 

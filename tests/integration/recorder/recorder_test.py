@@ -117,6 +117,13 @@ class Recorder(unittest.TestCase):
             tracking.terminate()
             tracking.wait(PATIENCE_S)
 
+    def test_a_part_without_a_message_is_not_played(self):
+        path, _ = self.record_every_topic()
+        for part in (("--from", "1000"), ("--topics", "slammot/laser_scan", "--from", "1000")):
+            refused = run("play", path, "--domain", DOMAIN, "--loop", *part)
+            self.assertEqual(1, refused.returncode)
+            self.assertIn("no message to play in that time", refused.stderr)
+
     def test_a_killed_recorder_leaves_a_file_that_is_recovered(self):
         path = self.folder / "killed.mcap"
         with Publisher():
