@@ -27,12 +27,15 @@ using namespace slammot;
 using namespace std::chrono_literals;
 
 constexpr std::int64_t kGivenUpAfterNs = 2'000'000'000;
+constexpr const char* kTracked = "tracked";
 
 /// Of one vehicle, since the last line.
 struct Vehicle {
   std::map<std::int64_t, std::int64_t> published_ns;  ///< By stamp; until there are tracks.
-  std::uint64_t scans = 0, tracked = 0;               ///< Since the start,
-  std::vector<std::int64_t> unanswered_ns;            ///< as when scans without tracks came.
+  /// Answers to scans that have not come to this process yet: stage and time, by stamp.
+  std::map<std::int64_t, std::map<std::string, std::int64_t>> early_ns;
+  std::uint64_t scans = 0, tracked = 0;     ///< Since the start,
+  std::vector<std::int64_t> unanswered_ns;  ///< as when scans without tracks came.
   std::map<std::string, std::vector<double>> latencies_ms;
   json pose;  ///< The last one: stamp [ns], x [m], y [m], heading [rad] in odom, map_id.
   json tracks = json::array();  ///< The last confirmed ones: id, x [m], y [m] in odom.
@@ -88,6 +91,13 @@ class Observer {
     Vehicle& vehicle = vehicles_[std::string(wire::text(sample.vehicle_id))];
     ++vehicle.scans;
     vehicle.published_ns.emplace(sample.stamp_ns, info.source_time_ns);
+    const auto early = vehicle.early_ns.extract(sample.stamp_ns);
+    if (early.empty()) return;
+    for (const auto& [stage, came_ns] : early.mapped()) {
+      vehicle.latencies_ms[stage].push_back(static_cast<double>(came_ns - info.source_time_ns) *
+                                            1e-6);
+      if (stage == kTracked) vehicle.tracked += vehicle.published_ns.erase(sample.stamp_ns);
+    }
   }
 
   void take(const slammot_LocalizedScan& sample) {
@@ -97,7 +107,7 @@ class Observer {
   }
 
   void take(const slammot_TrackedObjects& sample) {
-    Vehicle& vehicle = note("tracked", sample);
+    Vehicle& vehicle = note(kTracked, sample);
     vehicle.tracked += vehicle.published_ns.erase(sample.stamp_ns);
     vehicle.tracks.clear();
     for (std::uint32_t i = 0; i < sample.objects._length; ++i) {
@@ -108,16 +118,18 @@ class Observer {
     }
   }
 
-  /// The first answer of a stage to each scan.
+  /// The first answer of a stage to each scan. The scan itself may come later, when a packet of it
+  /// was lost on the way to this process.
   template <typename Sample>
   Vehicle& note(const char* stage, const Sample& sample) {
     Vehicle& vehicle = vehicles_[std::string(wire::text(sample.vehicle_id))];
     // This process may have been interrupted between the turn of the scans and that of the answers.
     if (!vehicle.published_ns.contains(sample.stamp_ns)) take_scans();
     const auto published = vehicle.published_ns.find(sample.stamp_ns);
+    const std::int64_t now_ns = app::system_clock_ns();
     if (published != vehicle.published_ns.end())
-      vehicle.latencies_ms[stage].push_back(
-          static_cast<double>(app::system_clock_ns() - published->second) * 1e-6);
+      vehicle.latencies_ms[stage].push_back(static_cast<double>(now_ns - published->second) * 1e-6);
+    else vehicle.early_ns[sample.stamp_ns].emplace(stage, now_ns);
     return vehicle;
   }
 
@@ -150,6 +162,9 @@ class Observer {
       const bool is_given_up = now_ns - one.second > kGivenUpAfterNs;
       if (is_given_up) vehicle.unanswered_ns.push_back(one.second);
       return is_given_up;
+    });
+    std::erase_if(vehicle.early_ns, [now_ns](const auto& one) {
+      return now_ns - one.second.begin()->second > kGivenUpAfterNs;
     });
     json described = {{"scans", vehicle.scans},
                       {"tracked", vehicle.tracked},
