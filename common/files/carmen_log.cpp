@@ -6,8 +6,10 @@
 
 #include "common/files/live_plan.hpp"
 #include "common/files/log_formats.hpp"
+#include "common/files/log_profile.hpp"
 #include "common/files/repeated_scans.hpp"
 #include "common/files/sorted_records.hpp"
+#include "common/sensing/deskew.hpp"
 
 namespace slammot::files {
 namespace {
@@ -348,11 +350,14 @@ void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int6
     return put_waiting_scans(kMaxWaitingScans);
   }
   switch (plan_.odometry) {
-    case OdometrySource::kNone: return put_scan(std::move(scan), std::nullopt);
+    case OdometrySource::kNone:
+      put_pose_at(scan.stamp_ns, std::nullopt);
+      return put_scan(std::move(scan));
     case OdometrySource::kLaserRecords:
     case OdometrySource::kBoth:
       put_odometry_until(scan.stamp_ns - 1);
-      return put_scan(std::move(scan), wheel_from_base);
+      put_pose_at(scan.stamp_ns, wheel_from_base);
+      return put_scan(std::move(scan));
     case OdometrySource::kOdomLines:
       waiting_.push_back(std::move(scan));
       return put_waiting_scans(kMaxWaitingScans);
@@ -373,7 +378,7 @@ void CarmenLog::take(const OdometryRecord& record) {
     ++faults_.stale_odometry;
     return;
   }
-  if (plan_.odometry == OdometrySource::kOdomLines || plan_.odometry_is_late())
+  if (plan_.odometry == OdometrySource::kOdomLines || plan_.odometry_is_late() || waits_for_sweep())
     put_waiting_scans(kMaxWaitingScans);
 }
 
@@ -402,10 +407,20 @@ void CarmenLog::take(const ImuRecord& record) {
   if (gyro_stamps_.believes(*stamp)) gyro_.add({*stamp, record.yaw_rate_radps});
 }
 
-/// Whether odometry that follows tells what it is at a scan.
+/// Whether odometry that follows tells what it is at a scan, or during its sweep.
 bool CarmenLog::waits_for_odometry() const {
   return plan_.odometry_is_late() || plan_.odometry_held_scans > 0 ||
-         plan_.odometry_smoothed_over > 0;
+         plan_.odometry_smoothed_over > 0 || waits_for_sweep();
+}
+
+/// A scan is complete when its sweep ends. Scanners without a full turn sweep for no known time.
+bool CarmenLog::waits_for_sweep() const {
+  return slow_sweep_ns() > 0 && plan_.odometry != OdometrySource::kNone && !is_timed_by_order();
+}
+
+std::int64_t CarmenLog::slow_sweep_ns() const {
+  const double sweep_s = sweep_s_for(plan_.figures, 0.0);
+  return sweep_s < sensing::kSlowSweep_s ? 0 : std::llround(1e9 * sweep_s);
 }
 
 /// Returns false unless it is newer than those before.
@@ -563,9 +578,11 @@ void CarmenLog::put_odometry_until(std::int64_t stamp_ns) {
 }
 
 void CarmenLog::put_waiting_scans(std::size_t may_wait) {
+  const std::int64_t sweep_ns = waits_for_sweep() ? slow_sweep_ns() : 0;
   while (!waiting_.empty()) {
     const bool has_odometry =
-        !odom_lines_.empty() && odom_lines_.back().stamp_ns >= waiting_.front().stamp_ns &&
+        !odom_lines_.empty() &&
+        odom_lines_.back().stamp_ns >= waiting_.front().stamp_ns + sweep_ns &&
         (odom_lines_.size() > 1 || !is_long_before_odometry(waiting_.front().stamp_ns));
     if (!has_odometry && waiting_.size() <= may_wait) return;
     sensing::LaserScan scan = std::move(waiting_.front());
@@ -573,11 +590,19 @@ void CarmenLog::put_waiting_scans(std::size_t may_wait) {
     const std::int64_t stamp = scan.stamp_ns;
     put_odometry_until(stamp - 1);
     const auto wheel_from_base = wheel_from_base_at(stamp);
-    put_scan(std::move(scan), wheel_from_base);
+    put_pose_at(stamp, wheel_from_base);
     const bool was_its_own = !odom_lines_.empty() && odom_lines_.front().stamp_ns == stamp &&
                              newest_odometry_ && newest_odometry_->stamp_ns == stamp;
     if (was_its_own) odom_lines_.pop_front();
+    if (sweep_ns > 0) put_odometry_through(stamp + sweep_ns);
+    put_scan(std::move(scan));
   }
+}
+
+/// That up to this time, and the first one after it.
+void CarmenLog::put_odometry_through(std::int64_t stamp_ns) {
+  put_odometry_until(stamp_ns - 1);
+  if (!odom_lines_.empty()) put_odometry_until(odom_lines_.front().stamp_ns);
 }
 
 bool CarmenLog::is_long_before_odometry(std::int64_t stamp_ns) const {
@@ -612,12 +637,15 @@ std::optional<geometry::Pose2> CarmenLog::wheel_from_base_at(std::int64_t stamp_
                                std::clamp(fraction, 0.0, 1.0));
 }
 
-void CarmenLog::put_scan(sensing::LaserScan scan,
-                         const std::optional<geometry::Pose2>& wheel_from_base) {
-  const bool is_believed = scan_stamps_.believes(scan.stamp_ns);
-  if (is_believed && wheel_from_base &&
-      (!newest_odometry_ || scan.stamp_ns > newest_odometry_->stamp_ns))
-    put_odometry({scan.stamp_ns, *wheel_from_base});
+/// Odometry at a scan's stamp.
+void CarmenLog::put_pose_at(std::int64_t stamp_ns,
+                            const std::optional<geometry::Pose2>& wheel_from_base) {
+  if (scan_stamps_.believes(stamp_ns) && wheel_from_base &&
+      (!newest_odometry_ || stamp_ns > newest_odometry_->stamp_ns))
+    put_odometry({stamp_ns, *wheel_from_base});
+}
+
+void CarmenLog::put_scan(sensing::LaserScan scan) {
   if (first_scan_)
     std::swap(first_scan_->sequence, scan.sequence);  // sequences follow the order of return
   ready_.emplace_back(std::move(scan));

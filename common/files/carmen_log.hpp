@@ -159,13 +159,17 @@ class CarmenLog {
   void correct(sensing::LaserScan& scan, std::size_t scanner) const;
   bool has_beams_of_the_main_one(std::size_t scanner) const;
   bool waits_for_odometry() const;
+  bool waits_for_sweep() const;
+  std::int64_t slow_sweep_ns() const;
   bool smooth_and_keep(const sensing::Odometry& odometry);
   bool is_fresh(const geometry::Pose2& wheel_from_base);
   bool keep_odometry(const sensing::Odometry& odometry);
   void put_odometry(const sensing::Odometry& odometry);
   void put_odometry_until(std::int64_t stamp_ns);
   void put_waiting_scans(std::size_t may_wait);
-  void put_scan(sensing::LaserScan scan, const std::optional<geometry::Pose2>& wheel_from_base);
+  void put_odometry_through(std::int64_t stamp_ns);
+  void put_pose_at(std::int64_t stamp_ns, const std::optional<geometry::Pose2>& wheel_from_base);
+  void put_scan(sensing::LaserScan scan);
   bool is_long_before_odometry(std::int64_t stamp_ns) const;
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/files/log_profile.hpp"
 #include "common/files/scan_clock.hpp"
 #include "common/matching/odometry_timing.hpp"
 #include "common/sensing/steady_stamps.hpp"
@@ -51,8 +52,8 @@ std::vector<sensing::Odometry> stamped_odometry_of(const ScannerSurvey& scanner,
                                                      : odometry_of_scans(scanner, plan);
 }
 
-/// Of a scanner that sweeps, odometry seems late by half of the sweep: the scan is stamped at its
-/// first beam. Whether it sweeps is not known yet.
+/// scan_times_s: of the middle of the sweep where that is known. Otherwise odometry of a scanner
+/// that sweeps seems late by half of the sweep: the scan is stamped at its first beam.
 matching::OdometryDrift fine_odometry_lateness(const ScannerSurvey& scanner, const LogPlan& plan,
                                                double fallback_field_of_view_rad,
                                                std::span<const double> scan_times_s,
@@ -80,7 +81,9 @@ matching::OdometryDrift fine_odometry_lateness(const ScannerSurvey& scanner, con
   const double period_s =
       (scan_times_s.back() - scan_times_s.front()) / static_cast<double>(scan_times_s.size());
   const double half_sweep_s =
-      0.5 * swept_rad / (2.0 * std::numbers::pi) * std::min(period_s, kSlowestTurn_s);
+      sweep_s_for(plan.figures, 0.0) > 0.0
+          ? 0.0
+          : 0.5 * swept_rad / (2.0 * std::numbers::pi) * std::min(period_s, kSlowestTurn_s);
   const matching::LogToTime log{pairs,        beams,   correction.range_unit_m,
                                 scan_times_s, of_base, roughly_s};
   const matching::MotionsByScans motions = matching::motions_by_scans(log);
@@ -109,7 +112,9 @@ void remove_lateness(const ScannerSurvey& scanner, std::span<const sensing::Odom
   };
   const matching::LogCorrection& correction = plan.evidence.correction;
   std::vector<double> scan_times_s;
-  for (const std::int64_t stamp_ns : stamps_ns) scan_times_s.push_back(time_s(stamp_ns));
+  const double half_sweep_s = 0.5 * sweep_s_for(plan.figures, 0.0);
+  for (const std::int64_t stamp_ns : stamps_ns)
+    scan_times_s.push_back(time_s(stamp_ns) + half_sweep_s);
   std::vector<matching::TimedPose> odometry;
   std::vector<matching::TimedPose> of_base;
   matching::PoseCorrection in_order;

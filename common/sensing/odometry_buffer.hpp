@@ -22,6 +22,9 @@ class OdometryBuffer {
   }
 
   bool empty() const { return samples_.empty(); }
+  std::optional<std::int64_t> newest_ns() const {
+    return samples_.empty() ? std::nullopt : std::optional(samples_.back().stamp_ns);
+  }
 
   /// Pose at the stamp by interpolation; none outside the buffered time.
   std::optional<geometry::Pose2> wheel_from_base_at(std::int64_t stamp_ns) const;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "services/localization/step_explanations.hpp"
+#include "services/localization/step_velocity.hpp"
 #include "services/localization/wheel_jump.hpp"
 
 namespace slammot::localization {
@@ -22,17 +23,6 @@ constexpr std::int64_t kOdometryKept_ns = 1'000'000'000;  // by a checkpoint: wh
                                                           // are compared with
 constexpr std::int64_t kLongestLag_ns = 200'000'000;      // a vehicle that accelerates does so for
                                                           // longer
-
-/// With the velocity of the step: another scanner's at the same time says nothing about it.
-Step with_velocity(Step step, const OdometryPrediction::LastScan& last) {
-  step.before_from_base =
-      geometry::inverse(step.odom_from_base_before.pose) * step.after.odom_from_base;
-  const bool is_later = step.duration_s > 0.0;
-  step.speed_mps = is_later ? step.before_from_base.x_m / step.duration_s : last.speed_mps;
-  step.yaw_rate_radps =
-      is_later ? step.before_from_base.heading_rad / step.duration_s : last.yaw_rate_radps;
-  return step;
-}
 
 bool is_still(const Pose2& by_wheels, double duration_s) {
   return std::hypot(by_wheels.x_m, by_wheels.y_m) < kStandsWithin_m &&
@@ -210,7 +200,7 @@ void OdometryPrediction::go_on_without_wheels(Step& step) const {
   step.wheels.are_overruled = true;
 }
 
-Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
+Step OdometryPrediction::predict(std::int64_t stamp_ns, double sweep_s) const {
   Step step;
   step.stamp_ns = stamp_ns;
   step.duration_s = static_cast<double>(stamp_ns - state_.last->stamp_ns) * 1e-9;
@@ -222,6 +212,7 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns) const {
   if (by_wheels) {
     step.wheels.uncorrected = *by_wheels;
     by_wheels = sensing::corrected(*by_wheels, step.duration_s, state_.belief.factors);
+    step.wheels.gained = gained_in_sweep(step, *by_wheels, sweep_s);
   }
   const bool was_disbelieved =
       state_.belief.last == sensing::StepExplanation::kOther && state_.last->has_wheels;

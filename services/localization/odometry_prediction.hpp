@@ -35,6 +35,7 @@ enum class StepSource {
 struct StepWheels {
   std::optional<geometry::Pose2> wheel_from_base;  ///< At the scan at hand.
   geometry::Pose2 uncorrected;                     ///< The step as odometry has it.
+  sensing::Velocity gained{0.0, 0.0};              ///< During the sweep, over that of the step.
   double stood_s = 0.0;                            ///< How long it has reported no motion;
   bool is_standing = false;                        ///< long enough for the vehicle to stand.
   bool are_doubted = false;  ///< It reported a motion that the vehicle cannot have made,
@@ -57,7 +58,8 @@ struct Step {
   geometry::UncertainPose2 odom_from_base_before;  ///< Estimate at the last scan.
   sensing::MotionEstimate after;     ///< Prediction at the stamp; the prior of the match.
   geometry::Pose2 before_from_base;  ///< The step as predicted.
-  double speed_mps = 0.0;            ///< Forward, during the step.
+  double speed_mps = 0.0;            ///< Forward, during the step; during the sweep, where that
+                                     ///< is slow and odometry reaches its end.
   double yaw_rate_radps = 0.0;
   bool last_was_sampled = false;  ///< The last match left some direction to the prediction.
   sensing::StepExplanation explanation = sensing::StepExplanation::kWheels;  ///< Which component of
@@ -158,8 +160,9 @@ class OdometryPrediction {
   /// The first scan. The pose is the origin of odom.
   void begin(std::int64_t stamp_ns);
 
-  /// The step from the last scan to the stamp, not before it. Changes nothing.
-  Step predict(std::int64_t stamp_ns) const;
+  /// The step from the last scan to the stamp, not before it, of a scan that takes so long. Changes
+  /// nothing.
+  Step predict(std::int64_t stamp_ns, double sweep_s = 0.0) const;
 
   /// A step as it is predicted where wheels are doubted, for one by wheels that is far longer than
   /// usual though not impossible; none for any other, or where a velocity predicts.
@@ -231,6 +234,8 @@ class OdometryPrediction {
   std::optional<geometry::Pose2> step_by_wheels(const Step& step) const;
   std::optional<geometry::Pose2> wheel_step(std::int64_t stamp_ns, std::int64_t after_ns) const;
   Eigen::Vector3d step_by_stamp_offset(std::int64_t stamp_ns, double offset_s) const;
+  sensing::Velocity gained_in_sweep(const Step& step, const geometry::Pose2& by_wheels,
+                                    double sweep_s) const;
   bool have_jumped_lately() const;
   bool tells_of_stamps(std::int64_t stamp_ns) const;
   bool is_impossible(const geometry::Pose2& by_wheels, double duration_s) const;

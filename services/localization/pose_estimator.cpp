@@ -28,7 +28,7 @@ void PoseEstimator::begin(const sensing::LaserScan& scan) {
 }
 
 bool PoseEstimator::place(const ScanToPlace& placed) {
-  Step step = prediction_.predict(placed.scan.stamp_ns);
+  Step step = prediction_.predict(placed.scan.stamp_ns, sweep_.sweep_s(placed.scan));
   count(step, placed.counters);
   placed.counters.odometry.gaps += step.duration_s > config_.odometry.longest_step_s;
   take_points(placed, step);

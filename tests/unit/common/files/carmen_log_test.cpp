@@ -341,6 +341,45 @@ TEST_F(CarmenLogTest, InterpolatesOdomLinesForScansWhoseOwnPoseStandsStill) {
   EXPECT_THAT(reading.odometry[3].wheel_from_base, PoseNear(Pose2{1.0, 0.0, 0.0}, 1e-12));
 }
 
+/// Way from inside a room of 5 by 4 m to its wall.
+double range_in_room_m(double direction_rad) {
+  const double x = std::cos(direction_rad), y = std::sin(direction_rad);
+  const double across_m = (x > 0.0 ? 3.0 : 2.0) / std::max(std::abs(x), 1e-9);
+  const double along_m = (y > 0.0 ? 2.5 : 1.5) / std::max(std::abs(y), 1e-9);
+  return std::min(across_m, along_m);
+}
+
+/// Five scans a second all around, stamped at their first beams, and 25 poses by odometry, of a
+/// robot that turns on the spot to and fro.
+std::string drive_of_a_slow_scanner(int scans) {
+  constexpr int kBeams = 360;
+  constexpr double kPeriod_s = 0.2;
+  const auto heading_rad = [](double time_s) { return 1.2 * std::sin(1.1 * time_s); };
+  std::string log;
+  for (int i = 0; i < 5 * scans; ++i) {
+    const double time_s = 0.04 * i;
+    const std::string stamp = std::to_string(1000 + time_s);
+    const std::string pose = "0 0 " + std::to_string(heading_rad(time_s));
+    log += "ODOM " + pose + " 0 0 0 " + stamp + " h " + stamp + "\n";
+    if (i % 5 != 0) continue;
+    log += "ROBOTLASER1 0 0 6.265732 0.017453 30 0.01 0 360";
+    for (int beam = 0; beam < kBeams; ++beam)
+      log += " " + std::to_string(range_in_room_m(0.017453 * beam +
+                                                  heading_rad(time_s + kPeriod_s * beam / kBeams)));
+    log += " 0 " + pose + " " + pose + " 0 0 0 0 0 " + stamp + " h " + stamp + "\n";
+  }
+  return log;
+}
+
+TEST_F(CarmenLogTest, GivesScansOfASlowFullTurnWithTheOdometryOfTheirSweep) {
+  const Reading reading = read(drive_of_a_slow_scanner(30));
+  ASSERT_EQ(reading.scans.size(), 30U);
+  EXPECT_EQ(reading.order.substr(0, 13), "oooooosooooos");
+  EXPECT_EQ(reading.faults.stale_odometry, 0U);
+  for (std::size_t i = 1; i < reading.odometry.size(); ++i)
+    EXPECT_LT(reading.odometry[i - 1].stamp_ns, reading.odometry[i].stamp_ns);
+}
+
 TEST_F(CarmenLogTest, GivesScansOfALogThatNeverMovesWithoutOdometry) {
   EXPECT_EQ(read(FlaserLine{.ipc = "1.0"}.text() + FlaserLine{.ipc = "1.1"}.text()).order, "ss");
 }

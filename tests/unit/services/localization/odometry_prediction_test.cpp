@@ -54,6 +54,29 @@ TEST_F(OdometryPredictionTest, PredictsTheStepThatOdometryReports) {
   EXPECT_NEAR(step.speed_mps, kSpeed_mps, 0.1);
 }
 
+/// It brakes to 2 m/s and begins to turn with 1 rad/s at scan 5.
+TEST_F(OdometryPredictionTest, TakesTheMotionOfASlowSweepFromOdometryDuringIt) {
+  constexpr double kSweep_s = 0.09;
+  drive(0, 5);
+  const auto add_later = [this](double after_s) {
+    const Pose2 moved{2.0 * after_s, 0.0, 1.0 * after_s};
+    prediction_.add({stamp_ns(5) + to_ns(after_s), wheel_from_odom_ * pose_at(5) * moved});
+  };
+  add_later(0.0);
+  EXPECT_NEAR(prediction_.predict(stamp_ns(5), kSweep_s).speed_mps, kSpeed_mps, 0.1)
+      << "odometry ends before the sweep";
+  add_later(0.05);
+  EXPECT_NEAR(prediction_.predict(stamp_ns(5), kSweep_s).yaw_rate_radps, 1.0, 0.01)
+      << "odometry reaches half of the sweep";
+  add_later(0.1);
+  const Step swept = prediction_.predict(stamp_ns(5), kSweep_s);
+  EXPECT_NEAR(swept.speed_mps, 2.0, 0.1);
+  EXPECT_NEAR(swept.yaw_rate_radps, 1.0, 0.01);
+  EXPECT_THAT(swept.after.odom_from_base, PoseNear(pose_at(5), 0.01)) << "the stamp's pose";
+  EXPECT_NEAR(prediction_.predict(stamp_ns(5), 0.01).speed_mps, kSpeed_mps, 0.1)
+      << "a quick sweep is over before the velocity changes";
+}
+
 TEST_F(OdometryPredictionTest, ChangesNothingByPredicting) {
   drive(0, 5);
   prediction_.add({stamp_ns(5), wheel_from_odom_ * pose_at(5)});
