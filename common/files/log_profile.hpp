@@ -16,8 +16,9 @@ struct ProfileChoice {
 /// used indoors and outdoors.
 ProfileChoice choose_profile(const LogFigures& figures);
 
-/// Time from the first to the last beam of a scan. For a full-circle scanner at a constant rate it
-/// follows from the period. Otherwise it is from the profile, limited by the period.
+/// Time from the first to the last beam of a scan. For a scanner of more than 200 degrees at a
+/// constant rate it follows from the period, as its mirror turns once a scan. Otherwise it is from
+/// the profile, limited by the period.
 double sweep_s_for(const LogFigures& figures, double profile_sweep_s);
 
 }  // namespace slammot::files
