@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "common/flow/georeference_verdict.hpp"
+
 namespace slammot::loop_closing {
 namespace {
 
@@ -19,6 +21,10 @@ constexpr double kMostSigma = 1e4;
 /// (docs/decisions/loop-closing.md).
 constexpr double kSavedByBending = 25.0;
 constexpr int kMostBends = 3;
+/// Error of fixes that multipath does not explain, in claimed sigmas and in metres. Between tall
+/// houses it is 6 times what is claimed, and 8 m.
+constexpr double kAbsurdScale = 10.0;
+constexpr double kAbsurdSigma_m = 20.0;
 
 Matrix2 covariance_of(const flow::SubmapFix& fix) {
   const auto bounded = [](float variance_m2) {
@@ -37,6 +43,34 @@ double mean_sigma_m(const std::vector<graphs::PositionPrior>& priors) {
   double sum_m2 = 0.0;
   for (const graphs::PositionPrior& prior : priors) sum_m2 += 0.5 * prior.covariance_m2.trace();
   return priors.empty() ? 0.0 : std::sqrt(sum_m2 / static_cast<double>(priors.size()));
+}
+
+bool contradict_map(const AbsoluteFit& fit, const AbsolutePriors& priors) {
+  return fit.has_position && fit.positions.scale > kAbsurdScale &&
+         fit.positions.scale * mean_sigma_m(priors.positions) > kAbsurdSigma_m;
+}
+
+/// The measurements without those that are absurd beside the others. The bias of a compass is
+/// judged by GNSS that agrees with the map.
+AbsolutePriors sound_ones(const AbsolutePriors& priors, const AbsoluteFit& fit) {
+  AbsolutePriors sound = priors;
+  if (contradict_map(fit, priors)) {
+    sound.positions.clear();
+  } else if (std::abs(fit.heading_bias_rad) > flow::kMostCompassBias_rad) {
+    sound.headings.clear();
+  }
+  return sound;
+}
+
+/// A fit to the sound measurements, with what the fit to all says of the others.
+AbsoluteFit with_errors_of_others(AbsoluteFit fit, const AbsolutePriors& sound,
+                                  const AbsoluteFit& to_all) {
+  if (sound.positions.empty()) fit.positions = to_all.positions;
+  if (sound.headings.empty()) {
+    fit.headings = to_all.headings;
+    fit.heading_bias_rad = to_all.heading_bias_rad;
+  }
+  return fit;
 }
 
 /// Bends the graph and looks again which measurements are outliers, some times.
@@ -95,7 +129,8 @@ flow::Georeference Georeferencing::georeference_of(const AbsoluteFit& fit,
   reference.position_sigma_m = fit.position_sigma_m;
   reference.direction_sigma_rad = fit.direction_sigma_rad;
   reference.compass_bias_rad = fit.heading_bias_rad;
-  reference.fix_sigma_m = fit.positions.scale * mean_sigma_m(priors.positions);
+  if (fit.positions.inliers() > 0)
+    reference.fix_sigma_m = fit.positions.scale * mean_sigma_m(priors.positions);
   reference.fixes = static_cast<std::uint32_t>(priors.positions.size());
   reference.headings = static_cast<std::uint32_t>(priors.headings.size());
   if (fit.has_position)
@@ -113,12 +148,15 @@ std::optional<Georeferencing::Result> Georeferencing::compare(
   if (priors_.positions.empty() && priors_.headings.empty()) return std::nullopt;
   const AbsolutePriors priors = priors_of(connected);
   if (priors.positions.empty() && priors.headings.empty()) return std::nullopt;
-  const AbsoluteFit rigid = graphs::align(connected, priors);
-  Result result{connected, georeference_of(rigid, priors)};
+  const AbsoluteFit to_all = graphs::align(connected, priors);
+  const AbsolutePriors sound = sound_ones(priors, to_all);
+  const AbsoluteFit rigid = graphs::align(connected, sound);
+  Result result{connected, georeference_of(with_errors_of_others(rigid, sound, to_all), priors)};
   if (!rigid.has_position && !rigid.has_direction) return result;
-  if (auto better = bent(connected, constraints(), priors, rigid)) {
+  if (auto better = bent(connected, constraints(), sound, rigid)) {
     result.submaps = std::move(better->nodes);
-    result.georeference = georeference_of(better->fit, priors);
+    result.georeference =
+        georeference_of(with_errors_of_others(better->fit, sound, to_all), priors);
     result.georeference.corrects_map = true;
   }
   return result;

@@ -12,7 +12,8 @@
 namespace slammot::loop_closing {
 
 /// GNSS fixes and compass readings as priors of the pose graph. They correct the poses of submaps
-/// only where constraints and fixes contradict each other by more than their errors explain.
+/// only where constraints and fixes contradict each other by more than their errors explain. Fixes
+/// that fit nowhere, and a compass that GNSS contradicts, are not used.
 /// Closures are accepted or rejected without them, so that no multipath error can close a loop.
 class Georeferencing {
  public:

@@ -74,6 +74,22 @@ TEST(DescribeGeoreference, NamesOutliersAndBias) {
             "compass: 400 readings, bias 3.1 degrees, 10 % rejected as disturbed, believed");
 }
 
+TEST(DescribeGeoreference, SaysThatAbsurdFixesAndATurnedCompassAreNotUsed) {
+  flow::Georeference found;
+  found.fixes = 299;
+  found.fix_sigma_m = 1007.5;
+  EXPECT_EQ(describe_georeference(found),
+            "GNSS: 299 fixes, error 1007.5 m, contradicts the map: not used");
+  found.has_position = found.has_direction = true;
+  found.fix_sigma_m = 7.3;
+  found.headings = 834;
+  found.compass_bias_rad = -1.6;
+  EXPECT_EQ(
+      describe_georeference(found),
+      "GNSS: 299 fixes, 0 % rejected as multipath, error 7.3 m, agrees with the map; compass: "
+      "834 readings, bias -91.7 degrees against GNSS: mounted at 90 degrees? not used");
+}
+
 TEST(DescribeStreets, CallsASinglySureSearchAmbiguous) {
   streets::StreetSearch search;
   search.location = {streets::StreetVerdict::kLocated, 200.0, {{{}, 3.0, 0.9, 0.97}}};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/flow/georeference_verdict.hpp"
 #include "common/simulation/random.hpp"
 
 namespace slammot::loop_closing {
@@ -83,6 +84,41 @@ TEST_F(GeoreferencingTest, LeavesAMapThatIsRightAsItIs) {
   EXPECT_FALSE(found->georeference.corrects_map);
   for (std::size_t i = 0; i < submaps.size(); ++i)
     EXPECT_EQ(found->submaps[i].map_from_submap, submaps[i].map_from_submap);
+}
+
+TEST_F(GeoreferencingTest, DoesNotUseFixesThatJumpInTheMiddleOfTheDrive) {
+  Georeferencing jumping;
+  for (std::uint32_t id = 0; id < submaps.size(); ++id) {
+    flow::Submap made = submap(id);
+    if (id >= 6) {
+      for (flow::SubmapFix& fix : made.fixes) fix.position.latitude_deg += 1.0 / 60.0;
+    }
+    jumping.add(made);
+  }
+  const auto found = jumping.compare(submaps, [] { return std::vector<flow::Constraint>(); });
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(flow::gnss_contradicts_map(found->georeference));
+  EXPECT_FALSE(found->georeference.has_position);
+  EXPECT_FALSE(found->georeference.has_direction);
+  EXPECT_GT(found->georeference.fix_sigma_m, 100.0);
+}
+
+TEST_F(GeoreferencingTest, KeepsThePlaceButNotACompassThatIsTurned) {
+  for (const flow::CorrectedSubmap& at : submaps) {
+    flow::Submap made;
+    made.submap_id = at.submap_id;
+    const double true_rad = kWorldFromMap.heading_rad + at.map_from_submap.heading_rad;
+    for (int i = 0; i < 20; ++i)
+      made.headings.push_back(
+          {0.0F, static_cast<float>(geometry::wrap_angle(true_rad - 1.5)), 0.05F});
+    georeferencing.add(made);
+  }
+  const auto found = compare();
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(flow::compass_contradicts_gnss(found->georeference));
+  EXPECT_TRUE(found->georeference.has_position);
+  EXPECT_NEAR(found->georeference.compass_bias_rad, -1.5, 0.05);
+  EXPECT_NEAR(found->georeference.x_from_east_rad, kWorldFromMap.heading_rad, 0.01);
 }
 
 TEST_F(GeoreferencingTest, SaysNothingWithoutMeasurements) {
