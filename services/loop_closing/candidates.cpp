@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace slammot::loop_closing {
@@ -42,10 +43,21 @@ UncertainPose2 unknown_pose_on(const Place& target, const Place& source, double 
               .asDiagonal()};
 }
 
-/// True if GNSS says that two submaps do not overlap.
-bool are_apart_by_gnss(const Place& a, const Place& b, double max_distance_m) {
-  return a.by_gnss && b.by_gnss &&
-         geometry::east_north_m(*a.by_gnss, *b.by_gnss).norm() > max_distance_m + kGnssReach_m;
+/// Distance of two submaps that GNSS is sure of [m]; none if it does not say that they are apart.
+std::optional<double> apart_by_gnss_m(const SubmapView& submaps, const Place& a, const Place& b) {
+  if (!submaps.gnss_is_sound || !a.by_gnss || !b.by_gnss) return std::nullopt;
+  const double sure_m = geometry::east_north_m(*a.by_gnss, *b.by_gnss).norm() - kGnssReach_m;
+  return sure_m > submaps.config.max_distance_m ? std::optional(sure_m) : std::nullopt;
+}
+
+/// True if two submaps of an island overlap by the graph within its uncertainty. A distance by GNSS
+/// that the graph excludes is an error of GNSS, such as a jump by kilometres.
+bool may_overlap(const SubmapView& submaps, const Place& target, const Place& source,
+                 double distance_m, double sigma_m) {
+  const double reach_m = kGateSigmas * sigma_m;
+  if (distance_m > submaps.config.max_distance_m + reach_m) return false;
+  const auto apart_m = apart_by_gnss_m(submaps, target, source);
+  return !apart_m || *apart_m > distance_m + reach_m;
 }
 
 /// The nearest candidates. Neighbours of a chosen candidate are part of its target.
@@ -77,7 +89,7 @@ std::vector<RevisitCandidate> as_candidates(const SubmapView& submaps,
 }  // namespace
 
 Target target_around(const SubmapView& submaps, SubmapId id, const Place& source) {
-  const auto& [config, places, graph] = submaps;
+  const auto& [config, places, graph, gnss_is_sound] = submaps;
   Target target{{{&places.at(id), Pose2::identity()}}};
   const Pose2 target_from_map = geometry::inverse(graph.map_from_node(id));
   for (int step = -kNeighbours; step <= kNeighbours; ++step) {
@@ -100,9 +112,8 @@ std::vector<RevisitCandidate> expected_candidates(const SubmapView& submaps, con
     if (source.travelled_before_m - target.travelled_after_m < config.min_travel_between_m)
       continue;
     const double distance_m = (source_from_target.pose * target.centre_m - source.centre_m).norm();
-    if (distance_m >
-            config.max_distance_m + kGateSigmas * widest_sigma_m(source_from_target.covariance) ||
-        are_apart_by_gnss(target, source, config.max_distance_m))
+    if (!may_overlap(submaps, target, source, distance_m,
+                     widest_sigma_m(source_from_target.covariance)))
       continue;
     all.push_back({id, geometry::inverse(source_from_target), distance_m});
   }
@@ -115,7 +126,7 @@ std::vector<RevisitCandidate> candidates_elsewhere(const SubmapView& submaps, co
   std::vector<Candidate> all;
   for (const auto& [id, target] : submaps.places) {
     if (target.is_superseded || graph.are_on_one_island(id, source.id) ||
-        are_apart_by_gnss(target, source, submaps.config.max_distance_m))
+        apart_by_gnss_m(submaps, target, source))
       continue;
     all.push_back({id, unknown_pose_on(target, source, submaps.config.max_distance_m),
                    (graph.map_from_node(id) * target.centre_m - source_in_map_m).norm()});

@@ -14,6 +14,7 @@ struct SubmapView {
   const LoopClosingConfig& config;
   const Places& places;
   const ClosureGraph& graph;
+  bool gnss_is_sound = true;  ///< False if the fixes so far contradict the map.
 };
 
 /// An earlier submap and its neighbours as one target for `source`.

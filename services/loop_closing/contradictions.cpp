@@ -9,7 +9,7 @@ using geometry::Vector2;
 
 /// Nearest earlier place on the same island within half of max_distance_m; null if there is none.
 const Place* nearest_earlier_place(const SubmapView& submaps, const Place& source) {
-  const auto& [config, places, graph] = submaps;
+  const auto& [config, places, graph, gnss_is_sound] = submaps;
   const Vector2 in_map_m = graph.map_from_node(source.id) * source.centre_m;
   const Place* nearest = nullptr;
   double nearest_m = 0.5 * config.max_distance_m;

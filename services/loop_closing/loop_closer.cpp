@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/flow/georeference_verdict.hpp"
 #include "services/loop_closing/contradictions.hpp"
 #include "services/loop_closing/submap_odometry.hpp"
 #include "services/loop_closing/superseded_place.hpp"
@@ -283,7 +284,7 @@ flow::GraphCorrection LoopCloser::correction() {
 
 /// Corrects the poses of the submaps that are connected to the first one, where GNSS and compass
 /// say so.
-void LoopCloser::georeference(flow::GraphCorrection& correction) const {
+void LoopCloser::georeference(flow::GraphCorrection& correction) {
   const auto is_connected = [&](SubmapId id) {
     return graph_.island_of(id) == places_.begin()->first;
   };
@@ -298,6 +299,7 @@ void LoopCloser::georeference(flow::GraphCorrection& correction) const {
   });
   if (!found) return;
   correction.georeference = found->georeference;
+  gnss_is_sound_ = !flow::gnss_contradicts_map(found->georeference);
   auto corrected = found->submaps.begin();
   for (flow::CorrectedSubmap& submap : correction.submaps) {
     if (corrected == found->submaps.end()) break;

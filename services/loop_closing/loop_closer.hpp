@@ -50,7 +50,7 @@ class LoopCloser {
   const LoopClosingCounters& counters() const { return counters_; }
 
   /// All submaps so far with their graph; valid until the next change.
-  SubmapView submaps() const { return {config_, places_, graph_}; }
+  SubmapView submaps() const { return {config_, places_, graph_, gnss_is_sound_}; }
 
  private:
   void supersede_places_around(const Place& newest);
@@ -68,7 +68,7 @@ class LoopCloser {
   void propose(const Hypothesis& hypothesis);
   void check_contradiction(const SearchQueue::Finished& search);
   flow::GraphCorrection correction();
-  void georeference(flow::GraphCorrection& correction) const;
+  void georeference(flow::GraphCorrection& correction);
 
   LoopClosingConfig config_;
   LoopClosingCounters counters_;
@@ -76,6 +76,7 @@ class LoopCloser {
   double travelled_m_ = 0.0;
   ClosureGraph graph_;
   Georeferencing georeferencing_;
+  bool gnss_is_sound_ = true;  ///< By the last correction.
   SearchQueue searches_;
   std::vector<Hypothesis> waiting_;
   int unsolved_ = 0;  ///< Closures since the last solve.

@@ -46,7 +46,7 @@ flow::Constraint closure_of(const Hypothesis& hypothesis) {
 }
 
 bool agree(const SubmapView& submaps, const Hypothesis& a, const Hypothesis& b) {
-  const auto& [config, places, graph] = submaps;
+  const auto& [config, places, graph, gnss_is_sound] = submaps;
   const UncertainPose2 between_earlier{
       geometry::inverse(graph.map_from_node(a.from)) * graph.map_from_node(b.from),
       drift_between(places, a.from, b.from)};

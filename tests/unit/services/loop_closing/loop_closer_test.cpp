@@ -63,6 +63,22 @@ TEST(LoopCloser, ClosesTheSameLoopsWithTheKalmanFilter) {
   EXPECT_LT(largest_error_m(filter, way), 1.1 * largest_error_m(graph, way) + 0.01);
 }
 
+TEST(LoopCloser, ClosesTheSameLoopsThoughGnssJumpsByAKilometre) {
+  const auto way = way_around_the_ring(1.3);
+  LoopCloser without_gnss(indoor_loop_closing());
+  LoopCloser closer(indoor_loop_closing());
+  const std::vector<Submap> submaps = drive(ring(), way, 0.002);
+  for (std::size_t i = 0; i < submaps.size(); ++i) {
+    without_gnss.add(submaps[i]);
+    Submap submap = submaps[i];
+    const double jump_deg = 2 * i < submaps.size() ? 0.0 : 0.01;
+    for (int fix = 0; fix < 5; ++fix)
+      submap.fixes.push_back({0.0F, 0.0F, {40.0 + jump_deg, -80.0}, 1.0F, 1.0F, 0.0F});
+    closer.add(submap);
+  }
+  EXPECT_EQ(closer.counters().closures, without_gnss.counters().closures);
+}
+
 TEST(LoopCloser, ReturnsThePosesOfAllSubmapsAfterEachOne) {
   const auto submaps = drive(ring(), way_around_the_ring(0.4), 0.0);
   LoopCloser closer(indoor_loop_closing());
