@@ -38,19 +38,25 @@ class SideStreets {
   double cost_beside() const;
 
  private:
-  /// A street as it leaves a node.
-  struct Arm {
-    std::size_t node = 0;
-    double direction_rad = 0.0;
+  /// What can be seen from the way, in map: a rectangle around it.
+  struct View {
+    geometry::Vector2 low_m = geometry::Vector2::Zero();
+    geometry::Vector2 high_m = geometry::Vector2::Zero();
+    double reach_m = 0.0;  ///< Of a look beyond the rectangle.
   };
 
+  static View view_of(const std::vector<ViewFan>& fans);
+  std::vector<std::size_t> nodes_in_view(const geometry::Pose2& map_from_streets,
+                                         double within_m) const;
   bool has_arm(std::size_t node, double direction_rad) const;
-  double cost_of_closed(const geometry::Pose2& streets_from_map) const;
+  double cost_of_closed(const geometry::Pose2& streets_from_map,
+                        const std::vector<std::size_t>& nodes) const;
 
   const StreetNetwork& network_;
-  std::vector<Arm> arms_;
+  std::vector<std::vector<double>> arms_rad_;  ///< Directions of the streets that leave each node.
   std::vector<ViewFan> fans_;
   std::vector<Opening> openings_;
+  View view_;
 };
 
 }  // namespace slammot::streets

@@ -23,9 +23,13 @@ constexpr double kLeastShare = 0.25;  // of the way on streets
 constexpr double kPoorGraph = 1.6;    // the logarithm of one half in place of one tenth
 constexpr double kNotPassed_m = 15.0;
 
+bool has_place(const std::optional<StartArea>& start) {
+  return start && std::isfinite(start->radius_m);
+}
+
 Area area_of(const StreetGraph& graph, const DrivenWay& way,
              const std::optional<StartArea>& start) {
-  if (start) return {start->centre_m, start->radius_m + way.reach_m() + kMargin_m};
+  if (has_place(start)) return {start->centre_m, start->radius_m + way.reach_m() + kMargin_m};
   if (graph.streets.empty()) return {Vector2::Zero(), kMargin_m};
   Vector2 low_m = Vector2::Constant(std::numeric_limits<double>::max());
   Vector2 high_m = -low_m;
@@ -38,11 +42,31 @@ Area area_of(const StreetGraph& graph, const DrivenWay& way,
   return {0.5 * (low_m + high_m), 0.5 * (high_m - low_m).maxCoeff() + kMargin_m};
 }
 
+/// The streets that come near to an area, whole and in the same order: far ones change nothing, and
+/// a graph may be of a whole country.
+StreetGraph near(const StreetGraph& graph, const Area& area) {
+  constexpr double kBeyond_m = 250.0;  // more than what is seen from a way
+  StreetGraph clipped{graph.origin, {}};
+  const double reach_m = area.half_side_m + kBeyond_m;
+  for (const Street& street : graph.streets) {
+    Vector2 low_m = Vector2::Constant(std::numeric_limits<double>::max());
+    Vector2 high_m = -low_m;
+    for (const Vector2& point_m : street.line_m) {
+      low_m = low_m.cwiseMin(point_m);
+      high_m = high_m.cwiseMax(point_m);
+    }
+    if (((low_m - area.centre_m).array() <= reach_m).all() &&
+        ((high_m - area.centre_m).array() >= -reach_m).all())
+      clipped.streets.push_back(street);
+  }
+  return clipped;
+}
+
 /// Streets around a way.
 struct Surroundings {
   Surroundings(const StreetGraph& graph, const DrivenWay& way,
                const std::optional<StartArea>& start)
-      : area(area_of(graph, way, start)), network(graph), field(network, area) {}
+      : area(area_of(graph, way, start)), network(near(graph, area)), field(network, area) {}
 
   Area area;
   StreetNetwork network;
@@ -55,7 +79,8 @@ StreetPrior prior_of(const Area& area, const std::optional<StartArea>& start,
   prior.node_sigma_m = config.node_sigma_m;
   prior.lane_sigma_m = config.lane_sigma_m;
   // Standard deviations of even distributions.
-  prior.place_sigma_m = start ? 0.5 * start->radius_m : area.half_side_m / std::numbers::sqrt3;
+  prior.place_sigma_m =
+      has_place(start) ? 0.5 * start->radius_m : area.half_side_m / std::numbers::sqrt3;
   prior.heading_sigma_rad =
       (start && start->x_from_east_rad ? start->direction_within_rad : std::numbers::pi) /
       std::numbers::sqrt3;
