@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace slammot::streets {
 
@@ -34,6 +35,13 @@ double StreetGraph::length_m() const {
   double sum_m = 0.0;
   for (const Segment& segment : segments()) sum_m += segment.length_m();
   return sum_m;
+}
+
+double StreetGraph::distance_m(const Vector2& point_m) const {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const Segment& segment : segments())
+    least_m = std::min(least_m, (segment.nearest_to(point_m) - point_m).norm());
+  return least_m;
 }
 
 }  // namespace slammot::streets

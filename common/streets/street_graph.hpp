@@ -33,6 +33,8 @@ struct StreetGraph {
   /// All straight parts that are longer than a millimetre.
   std::vector<Segment> segments() const;
   double length_m() const;
+  /// Distance of a point from the nearest street; infinite without streets.
+  double distance_m(const geometry::Vector2& point_m) const;
 };
 
 }  // namespace slammot::streets

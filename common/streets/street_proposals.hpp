@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "common/streets/street_field.hpp"
 
 namespace slammot::streets {
+
+/// Radius of an area without an end: only a direction is known.
+inline constexpr double kAnywhere_m = std::numeric_limits<double>::infinity();
 
 /// What is known of where the way begins.
 struct StartArea {

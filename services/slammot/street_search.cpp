@@ -1,12 +1,15 @@
 #include "services/slammot/street_search.hpp"
 
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 
 #include <CLI/CLI.hpp>
 
 #include "common/files/finite_number.hpp"
 #include "common/files/number_option.hpp"
 #include "common/files/street_file.hpp"
+#include "common/files/text.hpp"
 
 namespace slammot {
 namespace {
@@ -25,23 +28,45 @@ std::optional<Geodetic> parse_place(std::string_view text) {
   return Geodetic{*latitude_deg, *longitude_deg};
 }
 
-/// Around the first pose, as far as the georeference is uncertain.
+/// True if no way that is compared reaches a street from there.
+bool is_off_the_streets(const streets::StreetGraph& graph, const streets::StartArea& start) {
+  return graph.distance_m(start.centre_m) > start.radius_m + kMostStreetWay_m;
+}
+
+double km_to_streets(const streets::StreetGraph& graph, const streets::StartArea& start) {
+  return 1e-3 * graph.distance_m(start.centre_m);
+}
+
+/// Around the first pose, as far as the georeference is uncertain; none without a place near the
+/// streets.
+std::optional<streets::StartArea> place_by_gnss(const StreetJob& job, const geometry::Pose2& first,
+                                                const flow::Georeference& georeference) {
+  constexpr double kLeast_m = 30.0;
+  constexpr double kSigmas = 3.0;
+  if (!georeference.has_position) return std::nullopt;
+  const geometry::Vector2 origin_m = geometry::east_north_m(job.graph.origin, georeference.origin);
+  const geometry::Pose2 streets_from_map{origin_m.x(), origin_m.y(), georeference.x_from_east_rad};
+  const streets::StartArea start{.centre_m = streets_from_map * first.translation_m(),
+                                 .radius_m = kLeast_m + kSigmas * georeference.position_sigma_m};
+  if (!is_off_the_streets(job.graph, start)) return start;
+  std::fprintf(stderr,
+               "slammot: GNSS is not used to find the drive on the streets: its place lies %.1f km "
+               "from the nearest street\n",
+               km_to_streets(job.graph, start));
+  return std::nullopt;
+}
+
 std::optional<streets::StartArea> start_of(const StreetJob& job, const geometry::Pose2& first,
                                            const std::optional<flow::Georeference>& georeference) {
-  constexpr double kLeast_m = 30.0;
   constexpr double kLeast_rad = 0.2;
   constexpr double kSigmas = 3.0;
   std::optional<streets::StartArea> start = job.start;
-  if (!georeference || !georeference->has_direction) return start;
-  if (!start && georeference->has_position) {
-    const geometry::Vector2 origin_m =
-        geometry::east_north_m(job.graph.origin, georeference->origin);
-    const geometry::Pose2 streets_from_map{origin_m.x(), origin_m.y(),
-                                           georeference->x_from_east_rad};
-    start = {.centre_m = streets_from_map * first.translation_m(),
-             .radius_m = kLeast_m + kSigmas * georeference->position_sigma_m};
-  }
-  if (!start || start->x_from_east_rad) return start;
+  if (!start && georeference) start = place_by_gnss(job, first, *georeference);
+  const bool is_measured = georeference && georeference->has_direction;
+  if (!job.x_from_east_rad && !is_measured) return start;
+  if (!start) start = streets::StartArea{.radius_m = streets::kAnywhere_m};
+  start->x_from_east_rad = job.x_from_east_rad;
+  if (start->x_from_east_rad) return start;
   start->x_from_east_rad = georeference->x_from_east_rad;
   start->direction_within_rad = kLeast_rad + kSigmas * georeference->direction_sigma_rad;
   return start;
@@ -76,27 +101,32 @@ void add_street_options(CLI::App& command, StreetOptions& options) {
       ->check(files::number_between(1.0, 1e5))
       ->capture_default_str();
   command
-      .add_option("--x-from-east", options.x_from_east_rad,
-                  "Direction of the map's x axis from east, counter-clockwise, with --near; "
-                  "default: by compass or GNSS of the drive, or any")
-      ->check(files::any_number())
+      .add_option(
+          "--x-from-east", options.x_from_east_rad,
+          "Direction of the map's x axis from east, counter-clockwise; default: by compass or "
+          "GNSS of the drive, or any")
+      ->check(files::number_between(-2.0 * std::numbers::pi, 2.0 * std::numbers::pi))
       ->type_name("RAD");
 }
 
 files::Result<std::optional<StreetJob>> prepare_streets(const StreetOptions& options) {
   if (options.file.empty()) {
     if (!options.near.empty()) return Error{"--near belongs to --streets"};
+    if (options.x_from_east_rad) return Error{"--x-from-east belongs to --streets"};
     return std::optional<StreetJob>();
   }
   auto graph = files::read_streets(options.file);
   if (!graph) return graph.error();
-  StreetJob job{std::move(*graph), std::nullopt};
+  StreetJob job{std::move(*graph), std::nullopt, options.x_from_east_rad};
   if (!options.near.empty()) {
     const auto place = parse_place(options.near);
     if (!place) return Error{"--near " + options.near + ": not a latitude and a longitude"};
     job.start = {.centre_m = geometry::east_north_m(job.graph.origin, *place),
-                 .radius_m = options.within_m,
-                 .x_from_east_rad = options.x_from_east_rad};
+                 .radius_m = options.within_m};
+    if (is_off_the_streets(job.graph, *job.start))
+      return Error{files::text(
+          "--near %s lies %.1f km from the nearest street of %s; LATITUDE,LONGITUDE?",
+          options.near.c_str(), km_to_streets(job.graph, *job.start), options.file.c_str())};
   }
   return std::optional(std::move(job));
 }

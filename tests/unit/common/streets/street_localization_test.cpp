@@ -203,5 +203,29 @@ TEST(StreetLocalization, FindsNothingInAnEmptyGraph) {
   EXPECT_EQ(locate({}, way, std::nullopt).verdict, StreetVerdict::kNotOnStreets);
 }
 
+TEST(StreetLocalization, TakesADirectionWithoutAPlace) {
+  const auto way = in_map(way_along(kCorners_m), kStreetsFromMap);
+  StartArea start{.radius_m = kAnywhere_m, .x_from_east_rad = kStreetsFromMap.heading_rad};
+  expect_found(locate(irregular_town(), way, start));
+  start.x_from_east_rad = kStreetsFromMap.heading_rad + 1.5;
+  const StreetLocation elsewhere = locate(irregular_town(), way, start);
+  for (const StreetFit& fit : elsewhere.fits)
+    EXPECT_GT((fit.streets_from_map.translation_m() - kStreetsFromMap.translation_m()).norm(),
+              20.0);
+}
+
+TEST(StreetLocalization, IsTheSameWithFarStreetsInTheGraph) {
+  const auto way = in_map(way_along(kCorners_m), kStreetsFromMap);
+  const StartArea start{.centre_m = {90.0, 20.0}, .radius_m = 100.0};
+  StreetGraph country = irregular_town();
+  for (int i = 0; i < 50; ++i)
+    country.streets.push_back({"", {{5000.0 + 90.0 * i, 0.0}, {5000.0 + 90.0 * i, 4000.0}}});
+  const StreetLocation alone = locate(irregular_town(), way, start);
+  const StreetLocation beside = locate(country, way, start);
+  ASSERT_EQ(beside.fits.size(), alone.fits.size());
+  EXPECT_EQ(beside.fits.front().streets_from_map, alone.fits.front().streets_from_map);
+  EXPECT_EQ(beside.fits.front().cost, alone.fits.front().cost);
+}
+
 }  // namespace
 }  // namespace slammot::streets

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -110,6 +111,25 @@ TEST(CommandLine, RefusesUnknownScenarios) {
                                              {"live", "--scenario", "nosuch"},
                                              {"simulate", "nosuch", "--output", "x"}})
     expect_usage_fault(words, "no scenario is named 'nosuch'");
+}
+
+TEST(CommandLine, RefusesAStartFarFromAllStreetsAndADirectionInDegrees) {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder / "a.geojson")
+      << R"({"features": [{"geometry": {"type": "LineString", "coordinates":)"
+      << R"( [[-79.99, 40.44], [-79.99, 40.45]]}}]})";
+  std::ofstream(folder / "way.tum") << "0 0 0 0 0 0 0 1\n1 200 0 0 0 0 0 1\n";
+  const std::vector<std::string> words{"streets", "--trajectory", folder / "way.tum", "--streets",
+                                       folder / "a.geojson"};
+  std::vector<std::string> swapped = words;
+  swapped.insert(swapped.end(), {"--near", "-79.99,40.44"});
+  const Outcome outcome = call(swapped);
+  EXPECT_EQ(outcome.exit_code, kExitFault);
+  EXPECT_THAT(outcome.standard_error, HasSubstr("km from the nearest street"));
+  EXPECT_THAT(outcome.standard_error, HasSubstr("LATITUDE,LONGITUDE?"));
+  std::vector<std::string> degrees = words;
+  degrees.insert(degrees.end(), {"--x-from-east", "90"});
+  expect_usage_fault(degrees, "' is not a number from");
 }
 
 TEST(CommandLine, RefusesToMergeAMapIntoItself) {
