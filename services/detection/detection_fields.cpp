@@ -1,5 +1,7 @@
 #include "services/detection/detection_fields.hpp"
 
+#include "common/config/physical_ranges.hpp"
+
 namespace slammot::detection {
 namespace {
 
@@ -7,8 +9,8 @@ using config::FieldTable;
 using config::Group;
 using config::in_group;
 using config::joined;
-using config::kNotNegative;
-using config::kPositive;
+using config::kLength_m;
+using config::kLengthOrZero_m;
 
 FieldTable<sensing::SegmentationConfig> segmentation_fields() {
   using C = sensing::SegmentationConfig;
@@ -20,7 +22,7 @@ FieldTable<sensing::SegmentationConfig> segmentation_fields() {
            "Greatest distance of neighbouring echoes of one segment, close to the scanner. "
            "Greatest gaps at any range, along walls and of dark objects, and distances of echoes "
            "from a wall's line are multiples of it.",
-           kNotNegative,
+           kLengthOrZero_m,
            {"One object is split.", "A pedestrian beside a wall is merged with it."}},
       });
 }
@@ -31,14 +33,14 @@ FieldTable<DetectionConfig> own_fields() {
       in_group<C>(Group::motion, {{"longest_mover_m",
                                    &C::longest_mover_m,
                                    "Longest segment that is labelled moving.",
-                                   kPositive,
+                                   kLength_m,
                                    {"Long vehicles are not detected.",
                                     "Walls that come into view are labelled moving."}}}),
       in_group<C>(Group::sensor,
                   {{"range_noise_m",
                     &C::range_noise_m,
                     "One sigma of a range, for published segments.",
-                    kPositive,
+                    kLength_m,
                     {"Tracks follow noise and are overconfident.", "Tracks are sluggish."}}}),
   });
 }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/config/physical_ranges.hpp"
 #include "services/localization/localizer_presets.hpp"
 #include "services/localization/map_fields.hpp"
 #include "services/localization/odometry_fields.hpp"
@@ -12,6 +13,8 @@ namespace {
 using config::FieldTable;
 using config::Group;
 using config::in_group;
+using config::kLength_m;
+using config::kLengthOrZero_m;
 using config::kNotNegative;
 using config::kPositive;
 using config::Range;
@@ -24,18 +27,18 @@ FieldTable<EchoConfig> sensor_fields() {
       {"match_range_m",
        &C::match_range_m,
        "Farther echoes are not matched.",
-       kPositive,
+       kLength_m,
        {"Open places leave too few echoes to match.",
         "Distant echoes with systematic errors pull the pose."}},
       {"min_range_m",
        &C::min_range_m,
        "Nearer echoes come from the vehicle itself.",
-       kNotNegative,
+       kLengthOrZero_m,
        {"The vehicle maps its own body.", "What is near is not seen."}},
       {"range_noise_m",
        &C::range_noise_m,
        "One sigma of a range, for the match.",
-       kPositive,
+       kLength_m,
        {"The pose follows noise.", "Wheels outweigh the scans."}},
       {"sweep_factor_sigma",
        &C::sweep_factor_sigma,
@@ -51,7 +54,7 @@ FieldTable<EchoConfig> map_use_fields() {
       {"map_range_m",
        &C::map_range_m,
        "Farther echoes are not mapped.",
-       kPositive,
+       kLength_m,
        {"Distant walls are missing, and the heading drifts.", "Distant echoes smear the map."}},
       {"leave_out_moving", &C::leave_out_moving,
        "Off to measure its worth: everything is mapped and matched as stationary."},
@@ -63,7 +66,7 @@ FieldTable<MatchTrustConfig> trust_fields() {
   return {{"body_sigma_without_wheels_m",
            &C::body_sigma_without_wheels_m,
            "Without odometry: one sigma of the error that all points of one body share; 0: none.",
-           kNotNegative,
+           kLengthOrZero_m,
            {"One large mover carries the pose along.",
             "One wall beside the vehicle counts for little."}}};
 }
@@ -94,7 +97,7 @@ FieldTable<matching::PointToLineConfig> match_fields() {
       {"robust_scale_m",
        &C::robust_scale_m,
        "Residual at which the weight of a point is a quarter.",
-       kPositive,
+       kLength_m,
        {"Good points of rough walls lose their weight.", "Movers and bushes pull the pose."}},
   };
 }

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "common/config/physical_ranges.hpp"
 #include "services/localization/localizer_presets.hpp"
 
 namespace slammot::localization {
@@ -11,6 +12,7 @@ using config::FieldTable;
 using config::Group;
 using config::in_group;
 using config::kPositive;
+using config::kSpeed_mps;
 
 FieldTable<OdometryConfig> trust_in_odometry_fields() {
   using C = OdometryConfig;
@@ -20,7 +22,7 @@ FieldTable<OdometryConfig> trust_in_odometry_fields() {
       {"fastest_mps",
        &C::fastest_mps,
        "A faster step by odometry is a jump.",
-       kPositive,
+       kSpeed_mps,
        {"Fast driving is taken for a jump.", "Jumps are believed."}},
       {"may_be_picked_up", &C::may_be_picked_up,
        "The vehicle may be set down elsewhere without a sign of its wheels."},
@@ -58,7 +60,7 @@ FieldTable<sensing::MotionModelConfig> motion_fields() {
                      {{"speed_walk_mps",
                        &C::speed_walk_mps,
                        "Without odometry: random walk of the speed [m/s per sqrt(s)].",
-                       kPositive,
+                       kSpeed_mps,
                        {"Braking is not followed.", "Corridors are shortened."}}});
 }
 

@@ -1,10 +1,13 @@
 #include "services/localization/scan_overlap.hpp"
 
+#include <algorithm>
+
 #include "services/localization/keyframe_priors.hpp"
 
 namespace slammot::localization {
 namespace {
 
+constexpr double kMostReach_m = 250.0;        // the grid of one scan holds no more
 constexpr double kMostEchoesOfScan = 1000.0;  // weight limit: more than a scan has
 
 }  // namespace
@@ -12,7 +15,8 @@ constexpr double kMostEchoesOfScan = 1000.0;  // weight limit: more than a scan 
 ScanOverlap::ScanOverlap(const LocalizerConfig& config)
     : robust_scale_m_(config.match.robust_scale_m),
       match_(config.match),
-      surfels_(grids::window_around(geometry::Vector2::Zero(), 2.0 * config.echoes.match_range_m,
+      surfels_(grids::window_around(geometry::Vector2::Zero(),
+                                    2.0 * std::min(config.echoes.match_range_m, kMostReach_m),
                                     config.map.surfel_size_m),
                kMostEchoesOfScan) {
   match_.unproven_share = 1.0;

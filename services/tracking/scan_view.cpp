@@ -46,6 +46,7 @@ ScanView::Directions ScanView::directions_of(const Footprint& footprint, const V
         middle + sense * wrap_angle(std::atan2(way.y(), way.x()) - middle_rad) / beam_step_rad();
     low = std::min(low, steps), high = std::max(high, steps);
   }
+  if (!std::isfinite(low) || !std::isfinite(high)) return {};  // nowhere, or of no size
   const auto count = static_cast<double>(scan_->range_m.size());
   double first = std::ceil(low - 0.5);
   double last = std::floor(high + 0.5) + 1.0;

@@ -2,14 +2,19 @@
 
 #include <utility>
 
+#include "common/config/physical_ranges.hpp"
 namespace slammot::tracking {
 namespace {
 
 using config::FieldTable;
 using config::Group;
 using config::in_group;
+using config::kLength_m;
+using config::kLengthOrZero_m;
 using config::kNotNegative;
 using config::kPositive;
+using config::kSpeed_mps;
+using config::kSpeedOrZero_mps;
 using config::Range;
 using config::with_members_of;
 
@@ -19,13 +24,13 @@ FieldTable<SensorNoise> sensor_fields() {
       {"range_noise_m",
        &C::range_noise_m,
        "One sigma of a range at the scanner.",
-       kPositive,
+       kLength_m,
        {"Tracks follow noise, and lose echoes.",
         "Velocities lag, and published errors are large."}},
       {"shape_noise_m",
        &C::shape_noise_m,
        "One sigma of the distance of an edge from its box.",
-       kPositive,
+       kLength_m,
        {"Bumpers and mirrors pull the box.", "Velocities of vehicles converge late."}},
   };
 }
@@ -51,13 +56,13 @@ FieldTable<MotionConfig> motion_fields() {
       {"fastest_mps",
        &C::fastest_mps,
        "Speed of the fastest objects: twice the sigma of a new track's speed.",
-       kPositive,
+       kSpeed_mps,
        {"Fast objects are lost before they are confirmed.",
         "New tracks jump to neighbours, and velocities converge late."}},
       {"stopped_below_mps",
        &C::stopped_below_mps,
        "Below this speed an object stops; above twice this speed it moves again.",
-       kNotNegative,
+       kSpeedOrZero_mps,
        {"Standing objects are published as moving.",
         "Creeping vehicles are published as standing."}},
   };
@@ -69,13 +74,13 @@ FieldTable<AssociationConfig> association_fields() {
       {"gate_margin_m",
        &C::gate_margin_m,
        "Points this near to a predicted body belong to it.",
-       kNotNegative,
+       kLengthOrZero_m,
        {"Parts of one body become tracks of their own.",
         "Bodies take echoes of their neighbours."}},
       {"widest_gate_m",
        &C::widest_gate_m,
        "Largest distance of an echo from a predicted body, however uncertain the prediction is.",
-       kPositive,
+       kLength_m,
        {"Objects that emerge from behind others get new identities.",
         "Tracks jump to other objects."}},
       {"most_hypotheses",
@@ -99,27 +104,27 @@ FieldTable<ExtentConfig> extent_fields() {
        &C::longest_body_m,
        "Longer segments are not objects. Below 3 m times the scale only people move, and the "
        "evidence of legs counts.",
-       kPositive,
+       kLength_m,
        {"Trucks and buses are not tracked.", "Walls become tracks."}},
       {"box_from_extent_m",
        &C::box_from_extent_m,
        "Objects longer than this are boxes with a heading, smaller ones blobs.",
-       kNotNegative,
+       kLengthOrZero_m,
        {"Pairs of pedestrians become boxes.", "Bicycles and small cars have no heading."}},
       {"box_from_speed_mps",
        &C::box_from_speed_mps,
        "Above this speed the heading of a box is that of its velocity.",
-       kNotNegative,
+       kSpeedOrZero_mps,
        {"Standing boxes turn with noise.", "Headings of creeping vehicles stay wrong."}},
       {"stride_m",
        &C::stride_m,
        "Small segments this near to a pedestrian are one of the legs.",
-       kNotNegative,
+       kLengthOrZero_m,
        {"Legs become pedestrians of their own.", "Pedestrians beside each other are one."}},
       {"merge_overlap_m",
        &C::merge_overlap_m,
        "Tracks whose bodies overlap this deep with like motion are one object.",
-       kNotNegative,
+       kLengthOrZero_m,
        {"Neighbours merge.", "One vehicle has two tracks."}},
   };
 }
@@ -131,12 +136,12 @@ FieldTable<ExistenceConfig> confirmation_fields() {
       {"contradicted_above_mps",
        &C::contradicted_above_mps,
        "Above this speed echoes where something stood before speak against a track.",
-       kNotNegative,
+       kSpeedOrZero_mps,
        {"Long flanks and crowds end tracks.", "Walls that seem to move remain tracks."}},
       {"least_travel_m",
        &C::least_travel_m,
        "Distance from its birth before a track is confirmed, unless most echoes say that it moved.",
-       kNotNegative,
+       kLengthOrZero_m,
        {"Bushes and posts become objects.", "Objects are confirmed late."}},
   };
 }
@@ -148,13 +153,13 @@ FieldTable<ExistenceConfig> termination_fields() {
       {"least_travel_to_stand_m",
        &C::least_travel_to_stand_m,
        "A confirmed track may stand 2 s for each time that it has come so far.",
-       kNotNegative,
+       kLengthOrZero_m,
        {"False tracks on bushes last.", "Pedestrians who wait lose their track."}},
       {"least_surprise_m",
        &C::least_surprise_m,
        "Least distance at which echoes beyond six sigmas of a confirmed track's prediction are "
        "outliers.",
-       kNotNegative,
+       kLengthOrZero_m,
        {"Sharp manoeuvres lose the track.", "Tracks jump to neighbours."}},
       {"longest_unseen_s",
        &C::longest_unseen_s,
@@ -176,7 +181,7 @@ FieldTable<PublicationConfig> publication_fields() {
       {"most_speed_sigma_published_mps",
        &C::most_speed_sigma_published_mps,
        "A track with a larger sigma of the velocity is not published as confirmed.",
-       kPositive,
+       kSpeed_mps,
        {"Objects are published late.", "Wrong velocities are published."}},
   };
 }

@@ -42,6 +42,13 @@ TEST_F(ConfigCommand, ExplainsASettingByTheEndOfItsName) {
               HasSubstr("  localization.map.side_m  (m, 10 to 1000, default "));
 }
 
+TEST_F(ConfigCommand, LimitsSettingsWithUnitsToWhatCanBe) {
+  for (const char* name : {"localization.match_range_m", "tracking.range_noise_m",
+                           "tracking.shape_noise_m", "tracking.fastest_mps"})
+    EXPECT_THAT(config_command({"--explain", name}).standard_output,
+                HasSubstr(", above 0 up to 1000, default "));
+}
+
 TEST_F(ConfigCommand, ExplainsEverySettingWithoutAName) {
   const std::string explained = config_command({"--explain"}).standard_output;
   for (const char* name :

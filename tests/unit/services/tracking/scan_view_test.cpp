@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -39,6 +40,12 @@ TEST(ScanView, SeesBothHalvesOfWhatLiesAcrossTheSeam) {
         .beams;
   };
   EXPECT_EQ(beams_at(-1.3), beams_at(0.0));  // where its first beam points, and elsewhere
+}
+
+TEST(ScanView, SeesNothingOfWhatIsNowhere) {
+  const flow::SegmentedScan scan = testing::turned_scan(720, std::numbers::pi / 360);
+  const double nowhere = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(ScanView(scan).visibility_of(Footprint(), {nowhere, nowhere}).beams, 0);
 }
 
 TEST(EdgeBeyond, IsHiddenBySomethingNearer) {
