@@ -13,6 +13,7 @@
 #include "common/files/atomic_file.hpp"
 #include "common/files/failure.hpp"
 #include "common/files/run_outputs.hpp"
+#include "common/files/text.hpp"
 #include "common/files/ways_file.hpp"
 #include "common/traffic/map_traffic.hpp"
 #include "common/traffic/submap_traffic.hpp"
@@ -73,6 +74,18 @@ files::Result<MapWithTraffic> read_map(const std::filesystem::path& path, const 
   if (!traffic) return traffic.error();
   std::printf("map:      %zu submaps of %s\n", submaps->size(), path.c_str());
   return MapWithTraffic{std::move(*submaps), std::move(*traffic)};
+}
+
+/// A drive that both maps hold would be in the joint map twice.
+std::optional<files::Error> find_common_part(const MergeOptions& options,
+                                             const MapWithTraffic& first,
+                                             const MapWithTraffic& second) {
+  const std::size_t common = submaps_in_common(first.submaps, second.submaps);
+  if (common == 0) return std::nullopt;
+  return files::Error{
+      files::text("%zu of the %zu submaps of %s are in %s, too: they are merged "
+                  "already, or one map is a copy or continuation of the other",
+                  common, second.submaps.size(), options.second.c_str(), options.first.c_str())};
 }
 
 std::string describe(const Merge& merge) {
@@ -160,6 +173,8 @@ int merge_maps(const MergeOptions& options) {
   const auto second = read_map(options.second, profile);
   if (!second) return files::fail(second.error());
   std::fflush(stdout);
+  if (const auto fault = find_common_part(options, *first, *second))
+    return files::refuse(fault->message);
   const Merge merge =
       loop_closing::merge_maps(profile.loop_closing, first->submaps, second->submaps);
   if (merge.outcome != MergeOutcome::kJoined) {

@@ -18,6 +18,11 @@ namespace slammot {
 files::Result<std::vector<flow::Submap>> read_stored_map(const std::filesystem::path& path,
                                                          double cell_size_m);
 
+/// Number of submaps of `second` whose walls and cells are those of a submap of `first`, to the
+/// bit: both maps hold the same drive. Numbers and poses do not count, since a merge changes them.
+std::size_t submaps_in_common(const std::vector<flow::Submap>& first,
+                              const std::vector<flow::Submap>& second);
+
 /// The database that a path means, in one spelling: two paths are of one map if these are equal.
 std::filesystem::path database_of(const std::filesystem::path& path);
 

@@ -54,5 +54,16 @@ TEST_F(StoredTraffic, IsAddedToWhatASubmapHas) {
   EXPECT_EQ(stored->at({0}).size(), 2 * example_streams().size());
 }
 
+TEST(StoredMap, KnowsSubmapsOfAnotherMapAgain) {
+  const std::vector<flow::Submap> part{example_submap(0), example_submap(1)};
+  std::vector<flow::Submap> joint{example_submap(7), example_submap(0), example_submap(1)};
+  joint[2].submap_id = {2};  // as a merge renumbers and moves them
+  joint[2].odom_from_submap = {40.0, 3.0, 1.0};
+  joint[2].previous_from_submap.pose = {1.0, 0.0, 0.0};
+  EXPECT_EQ(submaps_in_common(joint, part), 2U);
+  EXPECT_EQ(submaps_in_common(part, part), 2U);
+  EXPECT_EQ(submaps_in_common(part, {example_submap(2), example_submap(3)}), 0U);
+}
+
 }  // namespace
 }  // namespace slammot
