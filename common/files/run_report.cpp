@@ -209,6 +209,21 @@ Json measured_of(const MeasuredRun& measured) {
           {"peak_memory_mb", short_number(measured.peak_memory_mb)}};
 }
 
+/// What the result was made of.
+Json source_of(const RunReport& report) {
+  Json json = {{"program", "slammot " + report.version}, {"command", report.command}};
+  if (!report.is_of_drive) {
+    json["maps"] = report.input;
+    return json;
+  }
+  json.update({{"profile", report.profile},
+               {"profile_reason", report.profile_reason},
+               {"is_interrupted", report.is_interrupted},
+               {"input", input_of(report)},
+               {"scan_pairs", evidence_of(report.plan.evidence)}});
+  return json;
+}
+
 }  // namespace
 
 StageLatency summarize_latency(std::string stage, std::vector<double> durations_ms) {
@@ -228,17 +243,11 @@ StageLatency summarize_latency(std::string stage, std::vector<double> durations_
 }
 
 std::string to_json_text(const RunRecord& record, const RunReport& report, double travelled_m) {
-  Json json = {{"program", "slammot " + report.version},
-               {"command", report.command},
-               {"profile", report.profile},
-               {"profile_reason", report.profile_reason},
-               {"is_interrupted", report.is_interrupted},
-               {"input", input_of(report)},
-               {"scan_pairs", evidence_of(report.plan.evidence)},
-               {"counts", counts_of(record)},
+  Json json = source_of(report);
+  json.update({{"counts", counts_of(record)},
                {"distance_m", short_number(travelled_m)},
                {"counters", report.counters},
-               {"closures", closures_of(record)}};
+               {"closures", closures_of(record)}});
   if (!report.losses.empty()) json["losses"] = losses_of(report);
   if (!report.replaced_stages.empty()) json["replaced_stages"] = report.replaced_stages;
   if (report.gyro) json["gyro"] = gyro_of(*report.gyro);

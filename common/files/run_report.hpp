@@ -47,6 +47,7 @@ struct RunReport {
   std::string profile_reason;
   std::vector<std::string> replaced_stages;  ///< "tracking: greedy", of each whose implementation
                                              ///< is not the default.
+  bool is_of_drive = true;  ///< False: of maps, named by `input`; without a log and a profile.
   LogPlan plan;
   double sweep_s = 0.0;  ///< Assumed time from the first to the last beam.
   LogFaults faults;

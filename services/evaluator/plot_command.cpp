@@ -91,13 +91,21 @@ files::Result<Drawing> draw(const RunResult& result, const PlotOptions& options)
   return draw_log_bars(bars, "milliseconds a call");
 }
 
+/// Map and lanes can be drawn without a drive: of merged maps there is none.
+files::Result<RunResult> read_what_is_drawn(const PlotOptions& options) {
+  const bool is_of_map = options.what == "map" || options.what == "lanes";
+  std::error_code ignored;
+  const bool has_drive = std::filesystem::exists(options.result / "online.tum", ignored);
+  return is_of_map && !has_drive ? read_map_folder(options.result) : read_result(options.result);
+}
+
 int plot(const PlotOptions& options) {
   constexpr double kSharp = 2.0;  // pixels a unit, of plots with text
   const path output =
       options.output.empty() ? options.result / (options.what + "_plot.png") : options.output;
   if (output.extension() != ".png" && output.extension() != ".svg")
     return files::refuse("--output " + output.string() + ": the name must end with .png or .svg");
-  const auto result = read_result(options.result);
+  const auto result = read_what_is_drawn(options);
   if (!result) return files::fail(result.error().message);
   const auto drawing = draw(*result, options);
   if (!drawing) return files::fail(drawing.error().message);
@@ -126,7 +134,9 @@ void add_plot_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("map|tracks|lanes|latency|errors|model")
       ->check(CLI::IsMember({"map", "tracks", "lanes", "latency", "errors", "model"}));
-  command->add_option("result", options->result, "Folder that run or bench wrote")
+  command
+      ->add_option("result", options->result,
+                   "Folder that run, bench or (map, lanes) map merge wrote")
       ->required()
       ->type_name("DIR");
   command

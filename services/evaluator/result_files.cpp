@@ -208,7 +208,7 @@ std::optional<Error> read_small_files(const path& folder, RunResult& result) {
   result.base_from_laser = {number_of_input(report, "laser_ahead_m"),
                             number_of_input(report, "laser_left_m"),
                             number_of_input(report, "laser_heading_rad")};
-  result.losses = losses_of(report, result.online.front().stamp_ns);
+  if (!result.online.empty()) result.losses = losses_of(report, result.online.front().stamp_ns);
   result.graph = read_graph(folder / "graph.g2o");
   if (std::filesystem::exists(folder / "lanes.geojson")) {
     auto ways = files::read_ways(folder / "lanes.geojson");
@@ -223,6 +223,14 @@ std::optional<Error> read_small_files(const path& folder, RunResult& result) {
     *image = std::move(*map);
   }
   return std::nullopt;
+}
+
+Result<RunResult> read_map_folder(const path& folder) {
+  RunResult result;
+  if (!std::filesystem::exists(folder / "map.yaml"))
+    return Error{(folder / "map.yaml").string() + ": no such file"};
+  if (auto fault = read_small_files(folder, result)) return *fault;
+  return result;
 }
 
 Result<RunResult> read_result(const path& folder) {

@@ -75,7 +75,12 @@ struct RunResult {
 
 files::Result<RunResult> read_result(const std::filesystem::path& folder);
 
-/// Reads graph, maps and figures of a result, not its tables. `result` must have its trajectories.
+/// Maps, lanes and graph of a folder without a drive, as `map merge` writes it: the trajectories of
+/// the result are empty. Fails without map.yaml.
+files::Result<RunResult> read_map_folder(const std::filesystem::path& folder);
+
+/// Reads graph, maps and figures of a result, not its tables. Times of losses need its
+/// trajectories.
 std::optional<files::Error> read_small_files(const std::filesystem::path& folder,
                                              RunResult& result);
 

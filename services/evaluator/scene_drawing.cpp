@@ -58,8 +58,9 @@ Pose2 corrected_from_online(const RunResult& result, std::int64_t stamp_ns) {
 }  // namespace
 
 GroundView whole_view(const RunResult& result, double most_pixels) {
-  Vector2 low_m = result.corrected.front().pose.translation_m();
-  Vector2 high_m = low_m;
+  Vector2 low_m = Vector2::Zero();
+  Vector2 high_m = Vector2::Zero();
+  if (!result.corrected.empty()) low_m = high_m = result.corrected.front().pose.translation_m();
   for (const metrics::StampedPose& pose : result.corrected) {
     low_m = low_m.cwiseMin(pose.pose.translation_m());
     high_m = high_m.cwiseMax(pose.pose.translation_m());

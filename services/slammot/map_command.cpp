@@ -134,8 +134,8 @@ files::RunReport report_of(const Merge& merge, const MergeOptions& options, doub
   files::RunReport report;
   report.command = "map merge";
   report.version = SLAMMOT_VERSION;
+  report.is_of_drive = false;
   report.input = options.first.filename().string() + " + " + options.second.filename().string();
-  report.profile = options.profile;
   report.counters = {{"loop_closing", named(merge.counters)},
                      {"merge",
                       {{"closures", static_cast<std::uint64_t>(merge.closures)},

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/evaluator/scene_drawing.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/unit/services/evaluator/files.hpp"
 
@@ -90,6 +91,17 @@ TEST_F(ResultFiles, ReadTheMapAsItIsWritten) {
   EXPECT_DOUBLE_EQ(map->min_x_m, -1.0);
   EXPECT_DOUBLE_EQ(map->min_y_m, 4.0);
   EXPECT_DOUBLE_EQ(map->resolution_m, 0.2);
+}
+
+TEST_F(ResultFiles, OfMergedMapsNeedNoDrive) {
+  EXPECT_THAT(read_map_folder(folder_.path()).error().message, HasSubstr("map.yaml: no such file"));
+  write(folder_ / "map.yaml", "image: map.pgm\nresolution: 0.5\norigin: [1, 2, 0]\n");
+  write(folder_ / "map.pgm", "P5\n2 1\n255\n" + std::string(2, '\0'));
+  const auto result = read_map_folder(folder_.path());
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->corrected.empty());
+  const GroundView view = whole_view(*result, 100.0);
+  EXPECT_EQ(view.width, 100.0);
 }
 
 TEST_F(ResultFiles, ReportATruncatedFile) {
