@@ -154,6 +154,14 @@ void print(const city_model::CityModel& model) {
       count(counts.scans), count(counts.echoes), count(counts.of_road), count(counts.of_movers),
       count(counts.in_free_space));
   std::printf("%zu points, %zu facades\n", model.points.size(), model.facades.size());
+  constexpr double kUsualInFreeSpace = 0.01;
+  const double share = static_cast<double>(counts.in_free_space) /
+                       static_cast<double>(std::max<std::uint64_t>(1, counts.echoes));
+  if (share > kUsualInFreeSpace)
+    std::printf(
+        "doubtful: %.1f %% of the echoes are in space that was free: another drive's log, or "
+        "a wrong mounting?\n",
+        100.0 * share);
 }
 
 void print(const city_model::ModelAccuracy& accuracy) {

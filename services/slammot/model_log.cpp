@@ -1,6 +1,7 @@
 #include "services/slammot/model_log.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "services/evaluator/map_cells.hpp"
 
@@ -31,6 +32,35 @@ files::Result<files::CarmenLog> open_log(const ModelInput& input) {
   options.reads_profiles = true;
   return files::CarmenLog::open(input.log, options);
 }
+
+/// Counts the scans of a log that a trajectory has a pose of. Trajectories hold whole microseconds.
+class StampsInCommon {
+ public:
+  explicit StampsInCommon(const metrics::Trajectory& online) : online_(online) {}
+
+  void add(std::int64_t stamp_ns) {
+    constexpr std::int64_t kSame_ns = 1000;
+    ++scans_;
+    const auto pose =
+        std::ranges::lower_bound(online_, stamp_ns - kSame_ns, {}, &metrics::StampedPose::stamp_ns);
+    if (pose != online_.end() && pose->stamp_ns <= stamp_ns + kSame_ns) ++found_;
+  }
+
+  /// The log may be cut off, and a run may use some scanners of several or a part of the drive. A
+  /// log without planar scans tells nothing.
+  bool are_of_one_drive() const {
+    return 2 * found_ >= std::min<std::size_t>(scans_, online_.size());
+  }
+  std::string described() const {
+    return std::to_string(found_) + " of its " + std::to_string(scans_) +
+           " planar scans are at the time of a pose of the result";
+  }
+
+ private:
+  const metrics::Trajectory& online_;
+  std::size_t scans_ = 0;
+  std::size_t found_ = 0;
+};
 
 const files::ScannerPlan* plan_of(const sensing::LaserScan& scan,
                                   const std::vector<files::ScannerPlan>& scanners) {
@@ -64,10 +94,15 @@ files::Result<ModelOfLog> model_of(const evaluator::RunResult& result, const Mod
   city_model::ProfileModel model(drive, {});
   ModelOfLog built;
   built.scanners = std::move(*scanners);
+  StampsInCommon stamps(result.online);
   while (auto event = log->next()) {
     auto* scan = std::get_if<sensing::LaserScan>(&*event);
-    const files::ScannerPlan* plan = scan != nullptr ? plan_of(*scan, built.scanners) : nullptr;
-    if (plan == nullptr) continue;
+    if (scan == nullptr) continue;
+    const files::ScannerPlan* plan = plan_of(*scan, built.scanners);
+    if (plan == nullptr) {
+      if (plan_of(*scan, log->plan().profile_scanners) == nullptr) stamps.add(scan->stamp_ns);
+      continue;
+    }
     scan->scanner.sweep_s = result.sweep_s;
     built.scans.push_back({scan->stamp_ns, scan->range_m.size(), plan->name});
     model.add(*scan, *plan->profile_mounting);
@@ -77,6 +112,8 @@ files::Result<ModelOfLog> model_of(const evaluator::RunResult& result, const Mod
   if (built.model.counts.scans == built.model.counts.scans_without_pose)
     return Error{input.log.string() +
                  ": no vertical scan within the trajectory of the result: not the log of that run"};
+  if (!stamps.are_of_one_drive())
+    return Error{input.log.string() + ": " + stamps.described() + ": not the log of that run"};
   return built;
 }
 

@@ -35,8 +35,8 @@ struct ModelOfLog {
 /// Trajectories, boxes of tracks where they were seen, and SO-map of a result.
 city_model::EstimatedDrive drive_of(const evaluator::RunResult& result);
 
-/// Fails with one line if the log has no vertical scanner, or no scan within the result's
-/// trajectory.
+/// Fails with one line if the log has no vertical scanner, or its scans are not those of the
+/// result: most stamps must be the same.
 files::Result<ModelOfLog> model_of(const evaluator::RunResult& result, const ModelInput& input);
 
 }  // namespace slammot

@@ -87,6 +87,19 @@ class CityModel(ProgramCase):
         self.assertEqual(stderr.count("\n"), 1)
         self.assertTrue(0 < json.loads(output.with_suffix(".json").read_text())["points"] < self.figures()["points"])
 
+    def test_the_log_of_another_drive_is_refused(self):
+        def later(line):
+            fields = line.rstrip("\n").split(" ")
+            if fields[0].startswith("ROBOTLASER"):  # stamps of the scanner and of the logger, at the end
+                fields[-3], fields[-1] = (f"{float(fields[i]) + 0.0071:.6f}" for i in (-3, -1))
+            return " ".join(fields) + "\n"
+
+        lines = gzip.decompress((self.result / "truth.log.gz").read_bytes()).decode().splitlines(keepends=True)
+        other = self.work / "later.log"
+        other.write_text("".join(later(line) for line in lines))
+        stderr = self.call("model", "--result", self.result, "--input", other, code=1).stderr
+        self.assertIn("planar scans are at the time of a pose of the result: not the log of that run", stderr)
+
     def test_wrong_input_is_told_in_one_line(self):
         other = self.work / "other.log"
         other.write_text("FLASER 3 1.0 2.0 3.0 0 0 0 0 0 0 5.0 host 5.0\n" * 3)
