@@ -249,6 +249,8 @@ std::string to_json_text(const RunRecord& record, const RunReport& report, doubl
                {"counters", report.counters},
                {"closures", closures_of(record)}});
   if (!report.losses.empty()) json["losses"] = losses_of(report);
+  if (report.is_in_stored_map)
+    json["located_at_s"] = report.located_at_s ? Json(short_number(*report.located_at_s)) : Json();
   if (!report.replaced_stages.empty()) json["replaced_stages"] = report.replaced_stages;
   if (report.gyro) json["gyro"] = gyro_of(*report.gyro);
   if (report.odometry)

@@ -53,7 +53,10 @@ struct RunReport {
   LogFaults faults;
   bool is_interrupted = false;  ///< The user interrupted it before the end of the drive.
   std::map<std::string, std::map<std::string, std::uint64_t>> counters;  ///< By stage and name.
-  std::vector<LossOfPlace> losses;                       ///< Of localization, where known.
+  std::vector<LossOfPlace> losses;     ///< Of localization, where known.
+  bool is_in_stored_map = false;       ///< The drive continues a map: it is located there or not.
+  std::optional<double> located_at_s;  ///< Since the first scan; poses as published before are in
+                                       ///< another frame than the map's.
   std::optional<sensing::OdometryConclusions> odometry;  ///< None if not recorded.
   std::optional<sensing::GyroUse> gyro;                  ///< None without an IMU.
   std::optional<StreetFindings> streets;                 ///< None without a street graph.

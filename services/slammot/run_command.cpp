@@ -72,6 +72,7 @@ struct Driven {
   double duration_s = 0.0;
   bool is_interrupted = false;  ///< True if more of the drive remained.
   std::vector<files::LossOfPlace> losses{};
+  std::optional<double> located_at_s{};  ///< In a stored map.
 };
 
 /// What happened so far, for the progress line.
@@ -103,6 +104,11 @@ class Progress {
   double distance_m_ = 0.0;
 };
 
+/// True if a submap of this drive is joined to the stored ones.
+bool is_located(const Pipeline& pipeline, std::size_t stored) {
+  return pipeline.record().submaps().size() > stored && pipeline.is_connected();
+}
+
 /// Processes the drive to its end or until a stop is requested.
 Driven drive(Job& job, const JobOptions& options, Pipeline& pipeline, const std::stop_token& stop) {
   Progress progress(options);
@@ -110,6 +116,8 @@ Driven drive(Job& job, const JobOptions& options, Pipeline& pipeline, const std:
   std::int64_t first_stamp_ns = 0;
   std::int64_t last_stamp_ns = 0;
   LostWatch lost(files::likely_causes(job.log.plan()));
+  std::optional<double> located_at_s;
+  const std::size_t stored = pipeline.record().submaps().size();
   ReadAhead log(job.log);
   auto read = log.next();
   for (; read && !stop.stop_requested(); read = log.next()) {
@@ -131,12 +139,13 @@ Driven drive(Job& job, const JobOptions& options, Pipeline& pipeline, const std:
       if (const auto line =
               lost.update(driven_s, scan->sequence, pipeline.is_lost(), pipeline.maps_begun()))
         progress.say(*line);
+      if (!located_at_s && is_located(pipeline, stored)) located_at_s = driven_s;
       progress.update(pipeline, read->fraction_read, driven_s);
     }
   }
   pipeline.finish();
   return {static_cast<double>(last_stamp_ns - first_stamp_ns) * 1e-9, read.has_value(),
-          lost.losses()};
+          lost.losses(), located_at_s};
 }
 
 /// Prints the last line of an incomplete run and returns its exit code.
@@ -163,7 +172,11 @@ std::optional<files::Error> continue_stored_map(const JobOptions& options, const
 }
 
 /// Relation of the drive to the map, if it was lost or began in a stored map.
-std::string describe_location(const Pipeline& pipeline, const RunOptions& options) {
+std::string describe_location(const Pipeline& pipeline, const RunOptions& options,
+                              std::optional<double> located_at_s) {
+  const auto after = [](std::optional<double> time_s) {
+    return time_s ? files::text(" after %.1f s", *time_s) : std::string();
+  };
   const auto maps_begun = pipeline.maps_begun();
   if (options.job.map.empty() && maps_begun == 0) return {};
   const auto found = pipeline.counters().at("loop_closing").at("found_elsewhere");
@@ -173,7 +186,8 @@ std::string describe_location(const Pipeline& pipeline, const RunOptions& option
                             std::to_string(maps_begun) + " times\n";
   const std::string place =
       pipeline.is_connected()
-          ? "the drive is located in the map (parts joined: " + std::to_string(found) + ")\n"
+          ? "the drive is located in the map" + after(located_at_s) +
+                " (parts joined: " + std::to_string(found) + ")\n"
           : "the drive is not located in the map: the origin of its poses is arbitrary\n";
   return lost + (pipeline.is_connected() ? "map:      " : "warning:  ") + place;
 }
@@ -212,6 +226,8 @@ int run(const RunOptions& run_options) {
   report.counters = pipeline.counters();
   report.odometry = pipeline.verdict_on_odometry();
   report.losses = driven.losses;
+  report.is_in_stored_map = !options.map.empty();
+  report.located_at_s = driven.located_at_s;
   report.is_interrupted = driven.is_interrupted;
   if (*streets) {
     const files::MapImage map = map_of(pipeline.record());
@@ -226,7 +242,7 @@ int run(const RunOptions& run_options) {
   if (const auto fault = write_settings(job->profile, options.output)) return files::fail(*fault);
   if (const auto fault = store_map(options, pipeline)) return files::fail(*fault);
   write_report(options, pipeline.record());
-  print(options, describe_location(pipeline, run_options));
+  print(options, describe_location(pipeline, run_options, driven.located_at_s));
   print(options, describe_outcome(pipeline.record(), report, options.output));
   print(options, describe_leftovers(options));
   return report_end(options, report, driven);
