@@ -35,7 +35,9 @@ bool has_highest(const Range& range) { return range.highest < kPositive.highest;
 /// What is wrong with a number outside the range.
 std::string in_words(const Range& range, double number) {
   std::ostringstream words;
-  if (has_highest(range)) words << "outside [" << range.lowest << ", " << range.highest << "]";
+  if (has_highest(range) && range.lowest == kPositive.lowest)
+    words << "outside (0, " << range.highest << "]";
+  else if (has_highest(range)) words << "outside [" << range.lowest << ", " << range.highest << "]";
   else if (range.lowest == std::numeric_limits<double>::lowest()) words << "not a finite number";
   else if (number > range.highest) words << "above " << range.highest;
   else if (range.lowest == kPositive.lowest && !(number > 0.0)) words << "not above 0";
