@@ -130,9 +130,13 @@ class Shortlist {
   explicit Shortlist(const Pose2& middle) : middle_(middle) {}
 
   void add(const Pose2& streets_from_map, const Matcher& matcher) {
-    Proposal& known = best_[cell_of(streets_from_map)];
-    const double cost = matcher.coarse_cost(streets_from_map, known.cost);
-    if (cost < known.cost) known = {streets_from_map, cost};
+    const Cell cell = cell_of(streets_from_map);
+    const auto known = best_.find(cell);
+    const double most = known == best_.end() ? most_ : std::min(known->second.cost, most_);
+    const double cost = matcher.coarse_cost(streets_from_map, most);
+    if (cost >= most) return;
+    best_[cell] = {streets_from_map, cost};
+    if (++added_ >= kRefined + best_.size()) limit_costs();
   }
   std::vector<Proposal> finished() const {
     std::vector<Proposal> proposals;
@@ -144,6 +148,20 @@ class Shortlist {
 
  private:
   using Cell = std::array<int, 3>;
+
+  /// Dearer proposals than the kRefined best so far are not among the best in the end; equal ones
+  /// may be.
+  void limit_costs() {
+    added_ = 0;
+    if (best_.size() < kRefined) return;
+    std::vector<double> costs;
+    costs.reserve(best_.size());
+    for (const auto& [cell, proposal] : best_) costs.push_back(proposal.cost);
+    const auto last = costs.begin() + static_cast<std::ptrdiff_t>(kRefined) - 1;
+    std::ranges::nth_element(costs, last);
+    most_ = std::nextafter(*last, std::numeric_limits<double>::infinity());
+  }
+
   Cell cell_of(const Pose2& streets_from_map) const {
     constexpr double kCell_m = 8.0;
     constexpr double kCell_rad = 0.1;
@@ -155,6 +173,8 @@ class Shortlist {
 
   Pose2 middle_;
   std::map<Cell, Proposal> best_;
+  double most_ = std::numeric_limits<double>::infinity();  ///< Proposals cost less than this.
+  std::size_t added_ = 0;                                  ///< Since the last change of most_.
 };
 
 /// Lays three points of the way onto streets, in both senses and some directions.
