@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "common/files/text.hpp"
 #include "common/geometry/order_statistics.hpp"
+#include "services/evaluator/table_file.hpp"
 
 namespace slammot::evaluator {
 namespace {
@@ -50,10 +54,26 @@ void add_gaps(const RunResult& result, std::vector<Doubt>& doubts) {
 
 }  // namespace
 
+std::optional<Doubt> time_before_located(const RunResult& result) {
+  const auto report = nlohmann::json::parse(result.report_json, nullptr, false);
+  if (!report.is_object() || !report.contains("located_at_s")) return std::nullopt;
+  const std::int64_t begin_ns = result.online.front().stamp_ns;
+  const auto& at_s = report["located_at_s"];
+  Doubt before{begin_ns, result.online.back().stamp_ns,
+               "not located in the stored map while driving: online poses are in another frame"};
+  if (!at_s.is_number()) return before;
+  before.end_ns = begin_ns + to_ns(at_s.get<double>());
+  before.what = files::text(
+      "located in the stored map after %.1f s: online poses before are in another frame",
+      at_s.get<double>());
+  return before.end_ns > begin_ns ? std::optional(before) : std::nullopt;
+}
+
 std::vector<Doubt> find_doubts(const RunResult& result) {
   std::vector<Doubt> doubts;
   add_unsure(result, doubts);
   add_gaps(result, doubts);
+  if (auto before = time_before_located(result)) doubts.push_back(std::move(*before));
   for (const LostSpan& loss : result.losses)
     doubts.push_back({loss.begin_ns, loss.end_ns, "lost: scans do not match the map"});
   std::ranges::stable_sort(doubts, {}, &Doubt::begin_ns);

@@ -11,6 +11,7 @@
 #include "common/files/failure.hpp"
 #include "common/files/number_option.hpp"
 #include "services/evaluator/comparison.hpp"
+#include "services/evaluator/doubts.hpp"
 #include "services/evaluator/evaluation_text.hpp"
 #include "services/evaluator/vehicle_boxes_csv.hpp"
 
@@ -58,6 +59,7 @@ int evaluate_run(const EvalOptions& options) {
   if (const auto fault = evaluate_walls(comparison, *result, *evaluation))
     return files::fail(*fault);
   std::fputs(to_text(*evaluation, comparison.evaluation).c_str(), stdout);
+  if (const auto before = time_before_located(*result)) std::printf("%s\n", before->what.c_str());
   if (const auto fault = write_files(options, *evaluation)) return files::fail(*fault);
   std::printf("all figures are in %s\n", (comparison.result / "evaluation.json").c_str());
   return 0;

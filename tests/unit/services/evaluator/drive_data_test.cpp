@@ -143,6 +143,17 @@ TEST(Doubts, NameGapsAndLosses) {
   EXPECT_THAT(words, ElementsAre("no scan was localized", "lost: scans do not match the map"));
 }
 
+TEST(Doubts, AreTheTimeBeforeADriveWasLocatedInAStoredMap) {
+  RunResult result = drive(100);
+  result.report_json = R"({"located_at_s": 1.5})";
+  const auto before = time_before_located(result);
+  ASSERT_TRUE(before);
+  EXPECT_EQ(before->end_ns - before->begin_ns, 1'500'000'000);
+  EXPECT_EQ(find_doubts(result).size(), 1U);
+  result.report_json = R"({"located_at_s": null})";
+  EXPECT_EQ(time_before_located(result)->end_ns, result.online.back().stamp_ns);
+}
+
 TEST(Doubts, AreNoneInASoundDrive) { EXPECT_TRUE(find_doubts(drive(100)).empty()); }
 
 }  // namespace
