@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/config/physical_ranges.hpp"
+
 namespace slammot::tracking {
 namespace {
 
