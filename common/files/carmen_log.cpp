@@ -531,8 +531,10 @@ sensing::LaserScan CarmenLog::scan_of(LaserRecord record, std::size_t scanner,
       is_main ? plan_.base_from_laser : scanner_plan(scanner).base_from_laser;
   scan.scanner.first_beam_rad = layout.first_beam_rad;
   scan.scanner.beam_step_rad = layout.beam_step_rad;
+  const double refuted_m =
+      scanner < plan_.scanners.size() ? plan_.scanners[scanner].refuted_max_range_m : 0.0;
   scan.scanner.max_range_m =
-      record.max_range_m > 0.0 ? std::min(record.max_range_m, max_range_m) : max_range_m;
+      record.max_range_m > refuted_m ? std::min(record.max_range_m, max_range_m) : max_range_m;
   scan.range_m = std::move(record.range_m);
   correct(scan, scanner);
   return scan;

@@ -94,6 +94,17 @@ void describe_signs(const LogPlan& plan, std::vector<std::string>& findings) {
              std::abs(odometry_in_base.y_m), odometry_in_base.y_m < 0.0 ? "right" : "left"));
 }
 
+void describe_ranges(const LogPlan& plan, std::vector<std::string>& findings) {
+  for (const ScannerPlan& scanner : plan.scanners) {
+    if (scanner.refuted_max_range_m == 0.0) continue;
+    findings.push_back(
+        text("readings%s reach beyond the maximum range of %g m that the log states: taken for "
+             "echoes up to %.2f m",
+             plan.scanners.size() > 1 ? (" of scanner " + scanner.name).c_str() : "",
+             scanner.refuted_max_range_m, scanner.max_range_m));
+  }
+}
+
 void describe_own_bodies(const LogPlan& plan, std::vector<std::string>& findings) {
   for (const ScannerPlan& scanner : plan.scanners) {
     const std::size_t beams = scanner.own_body.beams();
@@ -287,6 +298,7 @@ std::vector<std::string> describe_findings(const LogPlan& plan) {
   if (auto clock = describe_clock(plan); !clock.empty()) findings.push_back(std::move(clock));
   describe_units(plan.evidence.correction, findings);
   describe_signs(plan, findings);
+  describe_ranges(plan, findings);
   describe_own_bodies(plan, findings);
   describe_gaps(plan, findings);
   describe_doubts(plan, findings);

@@ -66,9 +66,10 @@ struct ScannerPlan {
   std::uint8_t slot = 1;
   std::uint64_t scans = 0;
   geometry::Pose2 base_from_laser;
-  double max_range_m = 0.0;       ///< As in LogPlan.
-  sensing::OwnBody own_body;      ///< In recorded units, as readings are written.
-  bool mounting_is_known = true;  ///< From the log; otherwise base_from_laser is a guess.
+  double max_range_m = 0.0;          ///< As in LogPlan.
+  double refuted_max_range_m = 0.0;  ///< Stated by the log, below many of the readings: ignored.
+  sensing::OwnBody own_body;         ///< In recorded units, as readings are written.
+  bool mounting_is_known = true;     ///< From the log; otherwise base_from_laser is a guess.
   std::optional<sensing::SpatialMounting> profile_mounting;  ///< Of a scanner that scans a vertical
                                                              ///< profile.
 };

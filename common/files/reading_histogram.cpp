@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace slammot::files {
 namespace {
+
+constexpr std::size_t kMostCodes = 8;  // readings that mean "no echo", by centimetres
 
 std::size_t echo_bins(double max_range_m) {
   return static_cast<std::size_t>(std::max(0.0, max_range_m * 100.0 + 0.5));
@@ -72,6 +75,23 @@ double ReadingHistogram::recorded_quantile(double share) const {
 double ReadingHistogram::echo_share(double max_range_m) const {
   return static_cast<double>(total_of(echoes_of(count_by_cm_, max_range_m))) /
          static_cast<double>(std::max<std::uint64_t>(1, readings_));
+}
+
+bool ReadingHistogram::refutes(double stated_m) const {
+  constexpr double kWithin = 1.02;      // of the maximum: codes for "no echo" lie just above it
+  constexpr double kLeastShare = 0.02;  // of all readings
+  constexpr std::ptrdiff_t kLeastKinds = 50;
+  if (stated_m <= 0.0) return false;
+  const std::span<const std::uint32_t> counts(count_by_cm_);
+  const auto above =
+      counts.subspan(std::min(echo_bins(kWithin * stated_m) + 1, count_by_cm_.size()));
+  std::vector<std::uint32_t> by_count(above.begin(), above.end());
+  std::ranges::sort(by_count, std::greater());
+  const std::uint64_t without_codes =
+      total_of(std::span(by_count).subspan(std::min(kMostCodes, by_count.size())));
+  return without_codes > 0 &&
+         static_cast<double>(without_codes) >= kLeastShare * static_cast<double>(readings_) &&
+         std::ranges::count_if(above, [](std::uint32_t count) { return count > 0; }) >= kLeastKinds;
 }
 
 double ReadingHistogram::max_range_m(double stated_m) const {

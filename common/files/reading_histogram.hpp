@@ -31,6 +31,10 @@ class ReadingHistogram {
   /// holds unless the data have a code below it.
   double max_range_m(double stated_m) const;
 
+  /// True if many different readings lie above a stated maximum: it is none. The few codes for "no
+  /// echo" may lie above it.
+  bool refutes(double stated_m) const;
+
   std::uint64_t scans_without_readings() const { return scans_without_readings_; }
 
  private:

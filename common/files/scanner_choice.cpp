@@ -33,15 +33,25 @@ double stated_max_range_m(const ScannerSurvey& scanner, const MountingParams& pa
   return std::ranges::max_element(scans, {}, [](const auto& range) { return range.second; })->first;
 }
 
+/// The stated maximum, if the readings refute it; else 0. In a bag readings beyond it are invalid
+/// by definition (sensor_msgs/LaserScan).
+double refuted_max_range_m(const ScannerSurvey& scanner, double stated_m) {
+  return scanner.kind != LaserRecordKind::kBag && scanner.readings.refutes(stated_m) ? stated_m
+                                                                                     : 0.0;
+}
+
 }  // namespace
 
 ScannerPlan scanner_plan_of(const ScannerSurvey& scanner, const MountingParams& params) {
+  const double stated_m = stated_max_range_m(scanner, params);
+  const double refuted_m = refuted_max_range_m(scanner, stated_m);
   return {.name = scanner.scanner,
           .kind = scanner.kind,
           .slot = scanner.slot,
           .scans = scanner.scans,
           .base_from_laser = base_from_laser_of(scanner, params),
-          .max_range_m = scanner.readings.max_range_m(stated_max_range_m(scanner, params)),
+          .max_range_m = scanner.readings.max_range_m(refuted_m > 0.0 ? 0.0 : stated_m),
+          .refuted_max_range_m = refuted_m,
           .own_body = {},
           .mounting_is_known = is_mounting_known(scanner, params),
           .profile_mounting = {}};

@@ -286,6 +286,20 @@ TEST_F(CarmenLogTest, TakesOdometryFromWhereItIsUnlessTheUserSaysThatTheLaserIsT
   EXPECT_THAT(first({0.5, 0.0, 0.0}), PoseNear(Pose2{1.5, 0.1, 0.0}, 1e-9));
 }
 
+TEST_F(CarmenLogTest, DoesNotCutReadingsAtAMaximumThatTheyExceed) {
+  std::string log;
+  for (int i = 0; i < 60; ++i) {
+    const std::string far = std::to_string(10.0 + 0.2 * i);
+    log += "ROBOTLASER1 0 -1.570796 3.141593 1.047197 8 0.01 0 4 1 " + far + " " + far +
+           " 2 0 0 0 0 0 0 0 0 0.5 0.3 1000000 " + std::to_string(1000.0 + 0.1 * i) + " h " +
+           std::to_string(0.1 * i) + "\n";
+  }
+  const Reading reading = read(log);
+  ASSERT_EQ(reading.scans.size(), 60U);
+  EXPECT_EQ(reading.plan.scanners.front().refuted_max_range_m, 8.0);
+  EXPECT_GT(reading.scans.front().scanner.max_range_m, 21.0);
+}
+
 TEST_F(CarmenLogTest, SmoothsNoisyPoses) {
   std::string log;
   for (int i = 0; i < 200; ++i) {

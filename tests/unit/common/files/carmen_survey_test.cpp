@@ -139,6 +139,16 @@ TEST(CarmenSurvey, BelievesTheRecordsMaximumUnlessTheDataKnowASmallerOne) {
             static_cast<double>(81.83F));
 }
 
+TEST(CarmenSurvey, IgnoresAMaximumBelowManyReadings) {
+  const auto plan = plan_of_changed_scans([](LaserRecord& r, int i) {
+    r.max_range_m = 3.0;
+    r.range_m[1] = r.range_m[2] = 5.0F + 0.11F * static_cast<float>(i);
+  });
+  EXPECT_EQ(plan.max_range_m, static_cast<double>(81.83F));
+  ASSERT_EQ(plan.scanners.size(), 1u);
+  EXPECT_EQ(plan.scanners.front().refuted_max_range_m, 3.0);
+}
+
 TEST(CarmenSurvey, PlacesTheLaserByParamElseByTheRecordsTwoPoses) {
   const auto by_record = plan_of_changed_scans([](LaserRecord& r, int) {
     r.base_from_laser = Pose2{0.3, 0.1, 0.2};

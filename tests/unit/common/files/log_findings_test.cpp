@@ -44,6 +44,13 @@ TEST(DescribeFindings, SaysWhatWasDoneToTheClock) {
   EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("rounded to 1 s")));
 }
 
+TEST(DescribeFindings, SaysThatReadingsReachBeyondTheStatedMaximum) {
+  LogPlan plan = sound_plan();
+  plan.scanners.push_back({.max_range_m = 60.0, .refuted_max_range_m = 8.0});
+  EXPECT_THAT(describe_findings(plan),
+              ElementsAre(HasSubstr("beyond the maximum range of 8 m that the log states")));
+}
+
 TEST(DescribeFindings, SaysThatTheWayHasTheWrongSign) {
   LogPlan plan = sound_plan();
   plan.evidence.correction.position_turn_rad = 3.14159;

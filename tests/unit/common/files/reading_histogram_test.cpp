@@ -31,6 +31,16 @@ TEST(ReadingHistogram, TakesReadingsForEchoesWhereTheFarthestDoesNotRepeat) {
   EXPECT_EQ(readings.max_range_m(50.0), 50.0);
 }
 
+TEST(ReadingHistogram, RefutesAMaximumThatManyDifferentReadingsExceed) {
+  ReadingHistogram readings;
+  for (int i = 0; i < 100; ++i)
+    readings.add(std::vector{4.0F, 10.0F + 0.3F * static_cast<float>(i), 81.83F, 81.91F});
+  EXPECT_TRUE(readings.refutes(8.0));
+  EXPECT_TRUE(readings.refutes(0.001));
+  EXPECT_FALSE(readings.refutes(0.0));
+  EXPECT_FALSE(readings.refutes(41.0)) << "above it are codes for no echo alone";
+}
+
 TEST(ReadingHistogram, CountsReadingsInAnotherUnitAgain) {
   ReadingHistogram readings;
   readings.add(std::vector{1000.0F, 2000.0F, 3000.0F});
