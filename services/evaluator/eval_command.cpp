@@ -62,7 +62,7 @@ int evaluate_run(const EvalOptions& options) {
   if (const auto before = time_before_located(*result)) std::printf("%s\n", before->what.c_str());
   if (const auto fault = write_files(options, *evaluation)) return files::fail(*fault);
   std::printf("all figures are in %s\n", (comparison.result / "evaluation.json").c_str());
-  return 0;
+  return evaluation->motion_differs ? 1 : 0;
 }
 
 }  // namespace

@@ -126,6 +126,11 @@ files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth,
   if (auto fault =
           evaluate_trajectories(result, truth, to_ns(options.max_stamp_difference_s), evaluation))
     return *fault;
+  if (auto doubt = doubt_of_motion(evaluation.online.matched)) {
+    evaluation.motion_differs = true;
+    evaluation.notes.push_back(std::move(*doubt));
+    return evaluation;
+  }
   if (auto fault = evaluate_scenes(result, truth, echoes, options, evaluation)) return *fault;
   return evaluation;
 }

@@ -43,6 +43,8 @@ struct Evaluation {
   std::optional<metrics::MapQuality> map;
   std::optional<WayEvaluation> ways;
   std::optional<WallSharpness> walls;  ///< Filled by the caller, who has the log.
+  bool motion_differs = false;  ///< From the true one by as much as its length: nothing but the
+                                ///< trajectories is evaluated, and a note says so.
   std::vector<std::string> notes;
   std::vector<metrics::Scene> scenes;    ///< Truth and tracks of each scan, in world.
   std::vector<std::uint32_t> track_ids;  ///< By the index of tracks in the scenes.
@@ -50,8 +52,7 @@ struct Evaluation {
 };
 
 /// Compares a run with the truth. Without echoes (empty), detection is not evaluated. Fails with
-/// one line if both cannot be of one drive: no common time, different motion, or objects far from
-/// the vehicle.
+/// one line if both cannot be of one drive: no common time, or objects far from the vehicle.
 files::Result<Evaluation> evaluate(const RunResult& result, const Truth& truth,
                                    const EchoSource& echoes, const EvaluationOptions& options);
 

@@ -37,10 +37,14 @@ TrajectoryEvaluation evaluate_trajectory(const metrics::Trajectory& truth,
                                          const metrics::Trajectory& estimate,
                                          std::int64_t max_difference_ns);
 
-/// Fails if truth and estimate cannot be of one drive: too few pairs, or different motion.
+/// Fails if truth and estimate have no common time: too few pairs.
 std::optional<files::Error> fault_of_overlap(const metrics::Trajectory& truth,
                                              const metrics::Trajectory& estimate,
                                              const std::vector<metrics::PosePair>& pairs);
+
+/// One sentence if the relative motions of estimate and truth differ by as much as their length:
+/// the estimate is wrong, or both are of different drives or clocks.
+std::optional<std::string> doubt_of_motion(const std::vector<metrics::PosePair>& pairs);
 
 /// First and last stamp, "1.000 to 2.000 s".
 std::string span_of(const metrics::Trajectory& trajectory);
