@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace slammot::sensing {
@@ -62,9 +63,13 @@ WayRatioFilter::Profile WayRatioFilter::prominent(Profile profile, double least)
     covariance += (kRatios[i] - mean_ratio) * (profile[i] - mean);
     variance += (kRatios[i] - mean_ratio) * (kRatios[i] - mean_ratio);
   }
+  const bool rises_to_its_end = profile.back() - mean >= least;
   for (std::size_t i = 0; i < profile.size(); ++i)
     profile[i] -= mean + covariance / variance * (kRatios[i] - mean_ratio);
-  if (*std::ranges::max_element(profile) < least) profile.fill(0.0);
+  const auto highest = std::ranges::max_element(profile);
+  const bool is_at_an_end =
+      highest == profile.begin() || (std::next(highest) == profile.end() && !rises_to_its_end);
+  if (*highest < least || is_at_an_end) profile.fill(0.0);
   return profile;
 }
 

@@ -24,7 +24,9 @@ class WayRatioFilter {
 
   /// The profile minus its linear trend, because after less way less of the place is new. All zero
   /// unless one ratio exceeds the others by `least`: along a bare wall all ratios fit equally and
-  /// the rest is noise.
+  /// the rest is noise. All zero, too, where the least ratio exceeds the others, since traffic
+  /// that moves along fits with no way at all, or the largest does by the trend alone, which such
+  /// traffic bends.
   static Profile prominent(Profile profile, double least);
 
   /// Probability that odometry is correct within 4 %.

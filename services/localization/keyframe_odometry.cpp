@@ -34,6 +34,7 @@ constexpr double kSoundAbove = 0.9;
 constexpr double kDoubtBelow = 0.05;  // probability that the way by odometry is right
 constexpr double kProminent = 0.06;   // of a fit
 constexpr double kDoubtOdds = 2.0;
+constexpr double kIndependent_s = 0.1;  // scans less far apart in time meet the same traffic
 constexpr double kStill_m = 0.01;
 constexpr double kStill_rad = 0.002;
 constexpr double kLongStanding_s = 0.4;  // between two keyframes: a car that sets off is then
@@ -170,7 +171,8 @@ std::optional<UncertainPose2> KeyframeOdometry::registered_near(const Pose2& pos
 }
 
 /// Compares shares of the way by odometry with each other: registration from what is expected
-/// hardly leaves it.
+/// hardly leaves it. A fast vehicle has a comparison at every other scan: together they count as
+/// much as those that are independent.
 void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& points,
                                  sensing::OdometryComparison& comparison) {
   const double way_m = by_wheels.translation_m().norm();
@@ -188,7 +190,9 @@ void KeyframeOdometry::judge_way(const Pose2& by_wheels, const ScanPoints& point
   sensing::WayRatioFilter::Profile fits;
   std::ranges::copy(fits_at(heading_rad, positions_m, points), fits.begin());
   fits = sensing::WayRatioFilter::prominent(fits, kProminent);
-  for (double& fit : fits) fit *= nats_ * points.evidence_share();
+  const double nats =
+      nats_ * points.evidence_share() * std::min(1.0, comparison.duration_s / kIndependent_s);
+  for (double& fit : fits) fit *= nats;
   state_.way_ratio.update(fits);
   if (state_.way_ratio.sound_probability() > kDoubtBelow) return;
   comparison.by_scans = registered_near(pose_at(state_.way_ratio.most_likely_ratio()), points);

@@ -11,11 +11,10 @@ namespace {
 
 using sensing::StepExplanation;
 
-constexpr double kSuspiciousBelow = 0.9;  // Below this probability of odometry being right every
-                                          // explanation is matched for itself.
-constexpr double kSuspiciousShareDrop = 0.15;  // Every explanation is matched for itself, too,
-                                               // where the matched share falls below its usual
-                                               // value by more than this.
+constexpr double kSuspiciousBelow = 0.9;       // Below this probability of sound odometry every
+                                               // explanation is matched for itself.
+constexpr double kSuspiciousShareDrop = 0.15;  // So it is where the matched share falls below
+                                               // its usual value by more than this.
 
 constexpr double kLeastOfUsualShare = 0.6;  // of the usual matched share: with less, an explanation
                                             // other than odometry does not win
@@ -23,10 +22,8 @@ constexpr double kLeastOfUsualShare = 0.6;  // of the usual matched share: with 
 constexpr std::size_t kWheels = 0;  // places of the explanations that set the window of a search
 constexpr std::size_t kRough = 1;
 constexpr std::size_t kOther = kOtherStep;
-constexpr double kStands_s = 1.0;  // without motion by odometry: what walks around it moves the
-                                   // scan, not the vehicle
-constexpr double kIndependentShare = 0.4;  // of the points: neighbours share the errors of a
-                                           // surface
+constexpr double kStands_s = 1.0;          // without motion by odometry: passers-by move the scan
+constexpr double kIndependentShare = 0.4;  // of the points: neighbours share a surface's errors
 
 constexpr double kUsualDrop = 0.07;         // of the matched share, from scan to scan
 constexpr std::size_t kLikelySteps = 2;     // the last ones of a mixture without odometry: like the
@@ -56,6 +53,17 @@ double weight_of_evidence(const Step& step) {
   constexpr double kWithoutOdometry = 2.5;
   const bool is_without = step.source == StepSource::kReach && !step.wheels.wheel_from_base;
   return is_without ? kWithoutOdometry : 1.0;
+}
+
+/// What is asked more of another motion than to be likelier than wheels in doubt [nats], where the
+/// place is not known: bare walls tell of neither, and traffic that moves along says "it stands".
+double asked_more(const Step& by_wheels, std::size_t explanation) {
+  constexpr double kClearlyLikelier = 2.2;
+  constexpr double kUnknown_m = 0.07;
+  const bool is_other = explanation == sensing::index_of(StepExplanation::kOther);
+  const auto& before = by_wheels.odom_from_base_before.covariance;
+  const bool is_unknown = before(0, 0) + before(1, 1) > kUnknown_m * kUnknown_m;
+  return is_other && is_unknown && by_wheels.wheels.are_in_doubt ? kClearlyLikelier : 0.0;
 }
 
 /// Way of the laser towards the middle of what it sees.
@@ -150,7 +158,8 @@ void MixtureMatch::compare(const StepToExplain& scan, std::size_t wide,
   for (std::size_t explanation = 0; explanation < priors.size(); ++explanation) {
     const double log_likelihood = fit + priors[explanation];
     best.log_likelihoods[explanation] = std::max(best.log_likelihoods[explanation], log_likelihood);
-    const double log_posterior = log_likelihood + std::log(scan.weights[explanation]);
+    const double log_posterior = log_likelihood + std::log(scan.weights[explanation]) -
+                                 asked_more(scan.steps.front(), explanation);
     if (log_posterior <= best.log_posterior) continue;
     best.step = likeliest_step(scan, explanation, optimum, registered);
     best.registered = registered;

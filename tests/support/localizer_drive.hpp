@@ -23,6 +23,7 @@ struct DriveSetup {
   double noise_m = 0.01;
   sensing::Scanner scanner = half_circle_scanner();
   WheelErrors wheels;
+  std::vector<geometry::Pose2> convoy_in_base = {};  ///< Trucks of 16 m by 2.5 m that move along.
 };
 
 /// Makes the scans and the odometry of a drive, one after the other.
@@ -38,10 +39,19 @@ class SimulatedDrive {
            setup_.world_from_base_at(time_s(scan));
   }
 
+  World world_at(double time_s) const {
+    World world = setup_.world;
+    for (const geometry::Pose2& truck : setup_.convoy_in_base) {
+      const World walls = box(setup_.world_from_base_at(time_s) * truck, 16.0, 2.5);
+      world.insert(world.end(), walls.begin(), walls.end());
+    }
+    return world;
+  }
+
   sensing::LaserScan scan(std::uint32_t number) const {
     std::mt19937 random(number + 1);
     const double start_s = time_s(number);
-    sensing::LaserScan scan = scan_along(setup_.world, setup_.world_from_base_at, start_s,
+    sensing::LaserScan scan = scan_along(world_at(start_s), setup_.world_from_base_at, start_s,
                                          setup_.scanner, setup_.beams, setup_.noise_m, random);
     scan.sequence = number;
     return scan;

@@ -65,5 +65,27 @@ TEST(WayRatioFilter, LearnsNothingWhereNoRatioStandsOut) {
   EXPECT_GT(WayRatioFilter::prominent(slope, 0.06)[3], 0.1);
 }
 
+/// Fits in a tunnel, between traffic that moves along: best with no way at all.
+WayRatioFilter::Profile fits_beside_traffic() {
+  WayRatioFilter::Profile fits;
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    fits[i] = 0.42 + 0.15 * std::exp(-WayRatioFilter::kRatios[i] / 0.3);
+  return fits;
+}
+
+TEST(WayRatioFilter, LearnsNothingFromTrafficThatMovesAlong) {
+  for (const double value : WayRatioFilter::prominent(fits_beside_traffic(), 0.01))
+    EXPECT_EQ(value, 0.0);
+}
+
+TEST(WayRatioFilter, DoesNotTakeTheBendOfTheTrendForTheLargestRatio) {
+  WayRatioFilter::Profile fits = fits_beside_traffic();
+  fits.front() -= 0.04;
+  fits.back() += 0.03;
+  for (const double value : WayRatioFilter::prominent(fits, 0.025)) EXPECT_EQ(value, 0.0);
+  fits.back() += 0.2;
+  EXPECT_GT(WayRatioFilter::prominent(fits, 0.025).back(), 0.1);
+}
+
 }  // namespace
 }  // namespace slammot::sensing

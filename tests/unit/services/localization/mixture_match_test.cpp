@@ -99,6 +99,19 @@ TEST_F(MixtureMatchTest, FollowsTheScanWhereWheelsAreOffByManySigmas) {
   EXPECT_THAT(explained.registered.map_from_base.pose, PoseNear(truth, 0.03));
 }
 
+TEST_F(MixtureMatchTest, KeepsWheelsInDoubtWhereTheScanTellsNothingOfTheWay) {
+  const MappedWorld wall({{{-200.0, 3.0}, {200.0, 3.0}}});
+  weights_ = {0.4, 0.0, 0.0, 0.6};
+  StepMixture steps{step_to({0.7, 0.0, 0.0}, 0.01, 0.003, StepExplanation::kWheels),
+                    step_to({0.7, 0.0, 0.0}, 0.04, 0.012, StepExplanation::kRoughWheels),
+                    step_to({0.6, 0.0, 0.0}, 0.01, 0.003, StepExplanation::kOther)};
+  for (Step& step : steps) step.after.covariance(0, 0) = 0.4;  // anywhere along the wall
+  steps.front().wheels.are_in_doubt = true;
+  steps.front().odom_from_base_before.covariance(0, 0) = 0.4;
+  const ExplainedStep explained = explain({0.7, 0.0, 0.0}, steps, wall);
+  EXPECT_NE(explained.step.explanation, StepExplanation::kOther);
+}
+
 TEST_F(MixtureMatchTest, TakesTheTailOfOdometryForErrorsOfAFewSigmasInARow) {
   const Pose2 truth{0.3, 0.2, 0.1};
   const StepMixture steps = explanations_of({0.36, 0.2, 0.1}, {-0.6, -0.6, -0.1});

@@ -338,6 +338,19 @@ TEST(OdometryFaults, GoWithWheelsAlongABareCorridorAndTheCovarianceSaysSo) {
   EXPECT_GT(result.covariance(0, 0), 25.0 * result.covariance(1, 1));
 }
 
+TEST(OdometryFaults, AreNotFoundBetweenBareWallsWhereTrafficMovesAlong) {
+  for (const double speed_mps : {16.0, 22.0}) {
+    DriveSetup setup = along_a_bare_corridor();
+    setup.world_from_base_at = arc({0.0, 0.0, 0.0}, speed_mps, 0.0);
+    setup.scan_period_s = 0.04;
+    setup.noise_m = 0.03;
+    setup.convoy_in_base = {{38.0, 0.0, 0.0}, {9.0, 3.0, 0.0}};
+    const DriveResult result = drive_with(setup, sound, kScans);
+    EXPECT_EQ(result.counters.odometry.disbelieved, 0U) << speed_mps;
+    EXPECT_LT(result.worst_m, 0.1 * speed_mps * 0.04 * kScans) << speed_mps;
+  }
+}
+
 TEST(OdometryFaults, OfTurnsAreSeenInABareCorridorThoughTheWayIsNot) {
   const Fault turns = during(6.0, 12.0, [](const Pose2& step, double) {
     return Pose2{step.x_m, step.y_m, 0.02};
