@@ -22,9 +22,15 @@ bool sees_all_around(const LogFigures& figures) {
   return figures.field_of_view_rad > 350.0 / 180.0 * std::numbers::pi;
 }
 
+/// From the first to the last beam.
+double between_beams_rad(const LogFigures& figures) {
+  const double beams = static_cast<double>(figures.beams);
+  return beams > 1.0 ? figures.field_of_view_rad * (beams - 1.0) / beams : 0.0;
+}
+
 /// Scanners of half a turn are slower than their mirrors: the line to the computer limits them.
 bool sees_behind(const LogFigures& figures) {
-  return figures.field_of_view_rad > 200.0 / 180.0 * std::numbers::pi;
+  return between_beams_rad(figures) > 200.0 / 180.0 * std::numbers::pi;
 }
 
 }  // namespace
@@ -54,10 +60,9 @@ double sweep_s_for(const LogFigures& figures, double profile_sweep_s) {
   constexpr double kSlowestTurn_s = 0.25;  // a longer period means that the log omits scans
   constexpr double kSlowestWide_s = 0.11;  // of scanners that look farther round than by half
   const double period_s = figures.scan_period_s;
-  const double share_of_turn = figures.field_of_view_rad / (2.0 * std::numbers::pi);
   // A scanner's mirror turns once a scan: with a synthetic period the sweep keeps its share of it.
   if (!figures.has_clock && figures.comes_by_time && profile_sweep_s > 0.0)
-    return period_s * share_of_turn;
+    return period_s * figures.field_of_view_rad / (2.0 * std::numbers::pi);
   const bool is_steady = figures.has_clock && figures.beams > 1 && period_s > 0.0 &&
                          figures.scan_period_spread < kSteadySpread;
   if (is_steady && sees_all_around(figures) && period_s < kSlowestTurn_s) {
@@ -65,7 +70,7 @@ double sweep_s_for(const LogFigures& figures, double profile_sweep_s) {
     return period_s * (beams - 1.0) / beams;
   }
   if (is_steady && sees_behind(figures) && period_s < kSlowestWide_s)
-    return period_s * share_of_turn;
+    return period_s * between_beams_rad(figures) / (2.0 * std::numbers::pi);
   return period_s > 0.0 ? std::min(profile_sweep_s, period_s) : profile_sweep_s;
 }
 

