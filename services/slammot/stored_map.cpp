@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <set>
 #include <string>
 #include <system_error>
@@ -58,31 +58,20 @@ Result<std::vector<flow::Submap>> read(Store& store, const std::string& name) {
   return submaps;
 }
 
-/// FNV-1a.
-class ContentHash {
- public:
-  void add(const void* bytes, std::size_t count) {
-    for (const auto* byte = static_cast<const unsigned char*>(bytes); count > 0; ++byte, --count)
-      value_ = (value_ ^ *byte) * 0x100000001b3U;
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325U;
-};
-
 /// Of what the scans saw; the same after a merge.
-std::uint64_t content_of(const flow::Submap& submap) {
-  ContentHash hash;
-  hash.add(&submap.columns, sizeof submap.columns);
-  hash.add(&submap.rows, sizeof submap.rows);
-  hash.add(submap.so_log_odds.data(), submap.so_log_odds.size());
-  hash.add(submap.mo_evidence.data(), submap.mo_evidence.size());
+std::size_t content_of(const flow::Submap& submap) {
+  std::string bytes;
+  const auto add = [&bytes](const void* data, std::size_t count) {
+    bytes.append(static_cast<const char*>(data), count);
+  };
+  add(&submap.columns, sizeof submap.columns);
+  add(&submap.rows, sizeof submap.rows);
+  add(submap.so_log_odds.data(), submap.so_log_odds.size());
+  add(submap.mo_evidence.data(), submap.mo_evidence.size());
   for (const flow::Surfel& surfel : submap.surfels) {
-    for (const float value : {surfel.x_m, surfel.y_m, surfel.weight})
-      hash.add(&value, sizeof value);
+    for (const float value : {surfel.x_m, surfel.y_m, surfel.weight}) add(&value, sizeof value);
   }
-  return hash.value();
+  return std::hash<std::string>{}(bytes);
 }
 
 struct LatestMap {
@@ -103,7 +92,7 @@ std::optional<LatestMap> latest_map_of(Store& store) {
 
 std::size_t submaps_in_common(const std::vector<flow::Submap>& first,
                               const std::vector<flow::Submap>& second) {
-  std::set<std::uint64_t> known;
+  std::set<std::size_t> known;
   for (const flow::Submap& submap : first) known.insert(content_of(submap));
   return static_cast<std::size_t>(std::ranges::count_if(second, [&](const flow::Submap& submap) {
     return !submap.surfels.empty() && known.contains(content_of(submap));
