@@ -350,9 +350,7 @@ void CarmenLog::take_in_order(LaserRecord record, std::size_t scanner, std::int6
     return put_waiting_scans(kMaxWaitingScans);
   }
   switch (plan_.odometry) {
-    case OdometrySource::kNone:
-      put_pose_at(scan.stamp_ns, std::nullopt);
-      return put_scan(std::move(scan));
+    case OdometrySource::kNone: return put_scan(std::move(scan));
     case OdometrySource::kLaserRecords:
     case OdometrySource::kBoth:
       put_odometry_until(scan.stamp_ns - 1);
@@ -413,13 +411,13 @@ bool CarmenLog::waits_for_odometry() const {
          plan_.odometry_smoothed_over > 0 || waits_for_sweep();
 }
 
-/// A scan is complete when its sweep ends. Scanners without a full turn sweep for no known time.
+/// A scan is complete when its sweep ends.
 bool CarmenLog::waits_for_sweep() const {
   return slow_sweep_ns() > 0 && plan_.odometry != OdometrySource::kNone && !is_timed_by_order();
 }
 
 std::int64_t CarmenLog::slow_sweep_ns() const {
-  const double sweep_s = sweep_s_for(plan_.figures, 0.0);
+  const double sweep_s = sweep_s_by_period(plan_.figures);
   return sweep_s < sensing::kSlowSweep_s ? 0 : std::llround(1e9 * sweep_s);
 }
 

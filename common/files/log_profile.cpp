@@ -55,14 +55,11 @@ ProfileChoice choose_profile(const LogFigures& figures) {
   return {"indoor", range};
 }
 
-double sweep_s_for(const LogFigures& figures, double profile_sweep_s) {
+double sweep_s_by_period(const LogFigures& figures) {
   constexpr double kSteadySpread = 0.25;
   constexpr double kSlowestTurn_s = 0.25;  // a longer period means that the log omits scans
   constexpr double kSlowestWide_s = 0.11;  // of scanners that look farther round than by half
   const double period_s = figures.scan_period_s;
-  // A scanner's mirror turns once a scan: with a synthetic period the sweep keeps its share of it.
-  if (!figures.has_clock && figures.comes_by_time && profile_sweep_s > 0.0)
-    return period_s * figures.field_of_view_rad / (2.0 * std::numbers::pi);
   const bool is_steady = figures.has_clock && figures.beams > 1 && period_s > 0.0 &&
                          figures.scan_period_spread < kSteadySpread;
   if (is_steady && sees_all_around(figures) && period_s < kSlowestTurn_s) {
@@ -71,6 +68,15 @@ double sweep_s_for(const LogFigures& figures, double profile_sweep_s) {
   }
   if (is_steady && sees_behind(figures) && period_s < kSlowestWide_s)
     return period_s * between_beams_rad(figures) / (2.0 * std::numbers::pi);
+  return 0.0;
+}
+
+double sweep_s_for(const LogFigures& figures, double profile_sweep_s) {
+  const double period_s = figures.scan_period_s;
+  // A scanner's mirror turns once a scan: with a synthetic period the sweep keeps its share of it.
+  if (!figures.has_clock && figures.comes_by_time && profile_sweep_s > 0.0)
+    return period_s * figures.field_of_view_rad / (2.0 * std::numbers::pi);
+  if (const double sweep_s = sweep_s_by_period(figures); sweep_s > 0.0) return sweep_s;
   return period_s > 0.0 ? std::min(profile_sweep_s, period_s) : profile_sweep_s;
 }
 

@@ -16,9 +16,12 @@ struct ProfileChoice {
 /// used indoors and outdoors.
 ProfileChoice choose_profile(const LogFigures& figures);
 
-/// Time from the first to the last beam of a scan. For a scanner of more than 200 degrees at a
-/// constant rate it follows from the period, as its mirror turns once a scan. Otherwise it is from
-/// the profile, limited by the period.
+/// Time from the first to the last beam of a scan, of a scanner of more than 200 degrees at a
+/// constant rate: its mirror turns once a scan. 0 of others, whose log does not tell.
+double sweep_s_by_period(const LogFigures& figures);
+
+/// Time from the first to the last beam of a scan: that by the period where the log tells it, else
+/// that of the profile, limited by the period.
 double sweep_s_for(const LogFigures& figures, double profile_sweep_s);
 
 }  // namespace slammot::files

@@ -81,7 +81,7 @@ matching::OdometryDrift fine_odometry_lateness(const ScannerSurvey& scanner, con
   const double period_s =
       (scan_times_s.back() - scan_times_s.front()) / static_cast<double>(scan_times_s.size());
   const double half_sweep_s =
-      sweep_s_for(plan.figures, 0.0) > 0.0
+      sweep_s_by_period(plan.figures) > 0.0
           ? 0.0
           : 0.5 * swept_rad / (2.0 * std::numbers::pi) * std::min(period_s, kSlowestTurn_s);
   const matching::LogToTime log{pairs,        beams,   correction.range_unit_m,
@@ -112,7 +112,7 @@ void remove_lateness(const ScannerSurvey& scanner, std::span<const sensing::Odom
   };
   const matching::LogCorrection& correction = plan.evidence.correction;
   std::vector<double> scan_times_s;
-  const double half_sweep_s = 0.5 * sweep_s_for(plan.figures, 0.0);
+  const double half_sweep_s = 0.5 * sweep_s_by_period(plan.figures);
   for (const std::int64_t stamp_ns : stamps_ns)
     scan_times_s.push_back(time_s(stamp_ns) + half_sweep_s);
   std::vector<matching::TimedPose> odometry;
