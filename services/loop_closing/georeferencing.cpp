@@ -151,7 +151,9 @@ std::optional<Georeferencing::Result> Georeferencing::compare(
   if (priors.positions.empty() && priors.headings.empty()) return std::nullopt;
   const AbsoluteFit to_all = graphs::align(connected, priors);
   const AbsolutePriors sound = sound_ones(priors, to_all);
-  const AbsoluteFit rigid = graphs::align(connected, sound);
+  const bool are_all_sound = sound.positions.size() == priors.positions.size() &&
+                             sound.headings.size() == priors.headings.size();
+  const AbsoluteFit rigid = are_all_sound ? to_all : graphs::align(connected, sound);
   Result result{connected, georeference_of(with_errors_of_others(rigid, sound, to_all), priors)};
   if (!rigid.has_position && !rigid.has_direction) return result;
   if (auto better = bent(connected, constraints(), sound, rigid)) {
