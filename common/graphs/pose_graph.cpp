@@ -54,6 +54,12 @@ void PoseGraph::set_enabled(std::size_t constraint, bool is_enabled) {
   weights_[constraint] = is_enabled ? 1.0 : 0.0;
 }
 
+bool PoseGraph::fits(const flow::Constraint& loop) const {
+  const double limit = config_.loop_loss_scale * config_.loop_loss_scale;
+  return limit <= 0.0 ||
+         squared_error(loop, map_from_node(loop.from), map_from_node(loop.to)) <= limit;
+}
+
 /// One problem that is solved repeatedly with changing weights; it optimizes the graph's poses in
 /// place.
 struct PoseGraph::Solver {

@@ -74,6 +74,9 @@ class PoseGraph {
   /// Odometric ones: 1.
   double weight(std::size_t constraint) const { return weights_[constraint]; }
 
+  /// True if optimise() would not ignore a loop with the error that it has at the present poses.
+  bool fits(const flow::Constraint& loop) const;
+
   /// A disabled constraint has weight 0.
   void set_enabled(std::size_t constraint, bool is_enabled);
 

@@ -122,12 +122,19 @@ bool ClosureGraph::founds_group(const Constraint& closure) const {
   });
 }
 
-void ClosureGraph::propose(const Constraint& closure,
-                           const std::function<bool(const Constraint&)>& agrees) {
+bool ClosureGraph::enable(const Agrees& agrees) {
+  bool is_any = false;
   for (const Closure& excluded : closures_) {
-    if (excluded.constraint.verdict.state != ClosureState::kAccepted && agrees(excluded.constraint))
-      graph_.set_enabled(excluded.edge, true);
+    if (excluded.constraint.verdict.state == ClosureState::kAccepted ||
+        !agrees(excluded.constraint))
+      continue;
+    graph_.set_enabled(excluded.edge, true);
+    is_any = true;
   }
+  return is_any;
+}
+
+void ClosureGraph::propose(const Constraint& closure) {
   const int group = group_for(closure);
   Constraint accepted = closure;
   accepted.verdict.state = ClosureState::kAccepted;
@@ -153,9 +160,20 @@ void ClosureGraph::solve(const std::string& reason) {
   update_verdicts(reason);
 }
 
-void ClosureGraph::solve_since(const Snapshot& before) {
+void ClosureGraph::solve_since(const Snapshot& before, const Agrees& agrees) {
   optimise();
-  exclude_costliest(before.graph);
+  if (!distorts(before.graph)) {
+    enable([&](const Constraint& excluded) { return graph_.fits(excluded) && agrees(excluded); });
+    return;
+  }
+  if (enable(agrees)) optimise();
+  if (distorts(before.graph)) exclude_costliest(before.graph);
+}
+
+/// True if the closures since `before` cost more than to exclude one.
+bool ClosureGraph::distorts(const graphs::PoseGraph& before) const {
+  return graph_.truncated_cost(kOdometrySigmaScale) >
+         before.truncated_cost(kOdometrySigmaScale) + kMaxSquaredError;
 }
 
 /// The newest closure and those that it enabled again.
@@ -183,16 +201,15 @@ graphs::PoseGraph ClosureGraph::without_group(int group, std::size_t& excluded) 
 }
 
 /// Contradictory closures are more certain than odometry: instead of showing large errors of their
-/// own, they distort odometric constraints. If the newest closure, with those that it re-enabled,
-/// raises the cost by more than the price of excluding a closure, takes the cheapest alternative:
-/// exclude these, or one of the latest groups (truncated least squares over groups).
+/// own, they distort odometric constraints. Takes the cheapest alternative: exclude the newest
+/// closure with those that it re-enabled, or one of the latest groups (truncated least squares over
+/// groups).
 void ClosureGraph::exclude_costliest(const graphs::PoseGraph& before) {
   constexpr std::size_t kMaxGroups = 3;
   const double price = kMaxSquaredError;
   const auto cost_of = [&](const graphs::PoseGraph& graph) {
     return graph.truncated_cost(kOdometrySigmaScale);
   };
-  if (cost_of(graph_) <= cost_of(before) + price) return;
   const std::vector<std::size_t> edges = new_edges(before);
   double least_cost = cost_of(before) + price * static_cast<double>(edges.size());
   graphs::PoseGraph best = before;

@@ -81,16 +81,23 @@ class ClosureGraph {
   /// True if no closure between the same two stretches is accepted.
   bool founds_group(const flow::Constraint& closure) const;
 
-  /// Adds a closure, accepted for now, and enables the excluded closures that agree with it.
-  void propose(const flow::Constraint& closure,
-               const std::function<bool(const flow::Constraint&)>& agrees);
+  /// Adds a closure, accepted for now.
+  void propose(const flow::Constraint& closure);
+
+  /// Whether an excluded closure supports the newest one.
+  using Agrees = std::function<bool(const flow::Constraint&)>;
+
+  /// Enables the excluded closures that agree with the newest one. False if there are none.
+  bool enable(const Agrees& agrees);
 
   /// Records a closure that never entered the graph, or left it by restore().
   void reject(const flow::Constraint& closure, std::string reason);
 
-  /// Optimizes the graph with the closure proposed since `before`, and excludes closures if that
-  /// costs less than the distortion of odometry.
-  void solve_since(const Snapshot& before);
+  /// Optimizes the graph with the closure proposed since `before`. If that distorts it, the
+  /// excluded closures that agree are weighed with the newest, and closures are excluded if that
+  /// costs less than the distortion of odometry. Otherwise those that agree and fit the new poses
+  /// are enabled.
+  void solve_since(const Snapshot& before, const Agrees& agrees);
 
   /// Optimizes the graph and updates the verdicts.
   void solve(const std::string& reason);
@@ -130,6 +137,7 @@ class ClosureGraph {
   void optimise();
   std::vector<std::size_t> new_edges(const graphs::PoseGraph& before) const;
   graphs::PoseGraph without_group(int group, std::size_t& excluded);
+  bool distorts(const graphs::PoseGraph& before) const;
   void exclude_costliest(const graphs::PoseGraph& before);
   void withdraw(Closure& closure, std::string reason);
 

@@ -206,7 +206,13 @@ bool LoopCloser::close(const Hypothesis& hypothesis) {
   }
   const bool is_first_of_group = graph_.founds_group(closure);
   propose(hypothesis);
-  if (!joins) graph_.solve_since(before);
+  const auto agrees = [&](const flow::Constraint& excluded) {
+    return agree(
+        submaps(), hypothesis,
+        {.from = excluded.from, .to = excluded.to, .from_to = excluded.from_to, .agreement = {}});
+  };
+  if (joins) graph_.enable(agrees);
+  else graph_.solve_since(before, agrees);
   const bool is_active = graph_.is_newest_active();
   if (joins && !holds_after_join(hypothesis, supporters)) {
     graph_.restore(before);
@@ -244,11 +250,7 @@ void LoopCloser::propose(const Hypothesis& hypothesis) {
   flow::Constraint closure = closure_of(hypothesis);
   closure.verdict.reason =
       "supported by " + std::to_string(support_of(submaps(), waiting_, hypothesis)) + " submaps";
-  graph_.propose(closure, [&](const flow::Constraint& excluded) {
-    return agree(
-        submaps(), hypothesis,
-        {.from = excluded.from, .to = excluded.to, .from_to = excluded.from_to, .agreement = {}});
-  });
+  graph_.propose(closure);
 }
 
 /// Counts a contradiction where the graph is certain that a submap lies on another and their walls

@@ -39,6 +39,14 @@ ClosureGraph line(std::uint32_t submaps) {
 }
 
 bool never(const Constraint&) { return false; }
+bool always(const Constraint&) { return true; }
+
+void add(ClosureGraph& graph, const Constraint& closure, const ClosureGraph::Agrees& agrees) {
+  const auto before = graph.snapshot();
+  graph.propose(closure);
+  graph.solve_since(before, agrees);
+  graph.update_verdicts("outweighed");
+}
 
 ClosureState state_of(const ClosureGraph& graph, const Constraint& closure) {
   for (const Constraint& one : graph.constraints()) {
@@ -59,7 +67,7 @@ TEST(ClosureGraph, JoinsIslandsByMovingTheLaterOne) {
       geometry::inverse(graph.map_from_node({2})) * graph.map_from_node({3});
   const Constraint found = closure(1, 2, 4.0);
   graph.join_islands(found);
-  graph.propose(found, never);
+  graph.propose(found);
   EXPECT_EQ(graph.island_of({3}), SubmapId{0});
   EXPECT_THAT(graph.map_from_node({2}), PoseNear(Pose2{14.0, 0.0, 0.0}, 1e-9));
   EXPECT_THAT(geometry::inverse(graph.map_from_node({2})) * graph.map_from_node({3}),
@@ -79,8 +87,8 @@ TEST(ClosureGraph, AcceptsAClosureWithinItsUncertainty) {
   ClosureGraph graph = line(5);
   const Constraint found = closure(0, 4, 40.1);
   const auto before = graph.snapshot();
-  graph.propose(found, never);
-  graph.solve_since(before);
+  graph.propose(found);
+  graph.solve_since(before, never);
   EXPECT_TRUE(graph.is_newest_active());
   graph.update_verdicts("");
   EXPECT_EQ(state_of(graph, found), ClosureState::kAccepted);
@@ -91,19 +99,61 @@ TEST(ClosureGraph, ExcludesAClosureThatDistortsTheGraph) {
   ClosureGraph graph = line(5);
   const Constraint found = closure(0, 4, 48.0);
   const auto before = graph.snapshot();
-  graph.propose(found, never);
-  graph.solve_since(before);
+  graph.propose(found);
+  graph.solve_since(before, never);
   EXPECT_FALSE(graph.is_newest_active());
   graph.update_verdicts("");
   EXPECT_EQ(state_of(graph, found), ClosureState::kRejected);
   EXPECT_NEAR(graph.map_from_node({4}).x_m, 40.0, 1e-6);
 }
 
+/// On a line of eight submaps that two closures tie, with false ones that were excluded.
+ClosureGraph line_with_excluded_closures() {
+  ClosureGraph graph = line(8);
+  for (const Constraint& one : {closure(0, 5, 50.0), closure(1, 6, 50.0), closure(0, 6, 66.0),
+                                closure(0, 7, 76.0), closure(1, 7, 66.0)})
+    add(graph, one, never);
+  return graph;
+}
+
+TEST(ClosureGraph, AcceptsAClosureThatItPredictsThoughItAgreesWithExcludedOnes) {
+  ClosureGraph graph = line_with_excluded_closures();
+  const auto solves = graph.counters().optimisations;
+  add(graph, closure(2, 7, 50.0), always);
+  EXPECT_EQ(state_of(graph, closure(2, 7, 50.0)), ClosureState::kAccepted);
+  for (const Constraint& one : {closure(0, 6, 66.0), closure(0, 7, 76.0), closure(1, 7, 66.0)})
+    EXPECT_EQ(state_of(graph, one), ClosureState::kRejected);
+  EXPECT_EQ(graph.counters().optimisations, solves + 1) << "there is nothing to weigh";
+}
+
+TEST(ClosureGraph, SolvesOnceForEachClosureThatItPredictsHoweverOftenAPlaceIsSeen) {
+  ClosureGraph graph = line_with_excluded_closures();
+  const auto solves = graph.counters().optimisations;
+  constexpr std::uint32_t kPasses = 30;
+  for (std::uint32_t id = 8; id < 8 + kPasses; ++id) {
+    graph.add_node({id}, {7.0 * kStep_m, 0.0, 0.0});
+    graph.add_constraint(
+        {{id - 1}, {id}, ConstraintKind::kOdometric, measured(Pose2::identity(), 0.1)});
+    add(graph, closure(0, id, 70.0), always);
+  }
+  EXPECT_EQ(graph.counters().optimisations, solves + kPasses);
+}
+
+TEST(ClosureGraph, TakesAnExcludedClosureBackOnceItFits) {
+  ClosureGraph graph = line(8);
+  add(graph, closure(0, 3, 32.0), never);
+  ASSERT_EQ(state_of(graph, closure(0, 3, 32.0)), ClosureState::kRejected);
+  // All submaps from 3 on are two metres further.
+  for (const std::uint32_t from : {0U, 1U, 2U})
+    add(graph, closure(from, 7, 72.0 - kStep_m * from), always);
+  EXPECT_EQ(state_of(graph, closure(2, 7, 52.0)), ClosureState::kAccepted);
+}
+
 TEST(ClosureGraph, RestoresItsStateBeforeAClosure) {
   ClosureGraph graph = line(5);
   const auto before = graph.snapshot();
-  graph.propose(closure(0, 4, 40.1), never);
-  graph.solve_since(before);
+  graph.propose(closure(0, 4, 40.1));
+  graph.solve_since(before, never);
   graph.restore(before);
   EXPECT_EQ(graph.constraints().size(), 4U);
   EXPECT_NEAR(graph.map_from_node({4}).x_m, 40.0, 1e-9);
@@ -113,7 +163,7 @@ TEST(ClosureGraph, WithdrawsAGroupAfterRepeatedContradictions) {
   ClosureGraph graph = line(5);
   const Constraint found = closure(0, 4, 40.1);
   EXPECT_TRUE(graph.founds_group(found));
-  graph.propose(found, never);
+  graph.propose(found);
   graph.solve("");
   EXPECT_FALSE(graph.founds_group(closure(1, 4, 30.0)));
   graph.contradict_path({4}, {0});
@@ -127,7 +177,7 @@ TEST(ClosureGraph, WithdrawsAGroupAfterRepeatedContradictions) {
 TEST(ClosureGraph, KeepsAConfirmedGroupAgainstAFewContradictions) {
   ClosureGraph graph = line(5);
   const Constraint found = closure(0, 4, 40.1);
-  graph.propose(found, never);
+  graph.propose(found);
   graph.solve("");
   graph.confirm_path({0}, {4});
   for (int i = 0; i < 2; ++i) graph.contradict_path({4}, {0});
