@@ -15,8 +15,9 @@ namespace {
 using flow::SubmapId;
 using geometry::Pose2;
 
-constexpr int kSupportWaitSubmaps = 6;  // Submaps for which a hypothesis waits for support.
-constexpr int kMaxUnsolved = 10;        // Closures that the graph predicted, before the next solve.
+constexpr int kSupportWaitSubmaps = 6;      // Submaps for which a hypothesis waits for support.
+constexpr double kMostUnsolvedCost = 10.0;  // Squared errors of closures that the graph predicted,
+                                            // before the next solve.
 
 }  // namespace
 
@@ -185,11 +186,12 @@ bool LoopCloser::close(const Hypothesis& hypothesis) {
   flow::Constraint closure = closure_of(hypothesis);
   const bool joins = !graph_.are_on_one_island(hypothesis.from, hypothesis.to);
   if (!joins && can_defer_solving(closure)) {
+    unsolved_cost_ += graph_.error_of(closure);
     propose(hypothesis);
-    if (++unsolved_ >= kMaxUnsolved) solve_deferred();
+    if (unsolved_cost_ >= kMostUnsolvedCost) solve_deferred();
     return true;
   }
-  unsolved_ = 0;
+  unsolved_cost_ = 0.0;
   const ClosureGraph::Snapshot before = graph_.snapshot();
   std::vector<Hypothesis> supporters;
   if (joins) {
@@ -232,17 +234,17 @@ bool LoopCloser::close(const Hypothesis& hypothesis) {
   return is_active;
 }
 
-/// In a large graph, a closure that the graph predicts within the closure's covariance hardly moves
-/// a node: solving is deferred.
+/// In a large graph, closures that the graph predicts (chi-square, 95 %) hardly move a node:
+/// solving is deferred until their squared errors, which bound what a solve can save, add up.
 bool LoopCloser::can_defer_solving(const flow::Constraint& closure) const {
   constexpr std::size_t kLargeGraph = 100;  // nodes
-  constexpr double kPredictedSquaredError = 1.0;
+  constexpr double kPredictedSquaredError = 7.8;
   return graph_.size() > kLargeGraph && graph_.error_of(closure) < kPredictedSquaredError;
 }
 
 void LoopCloser::solve_deferred() {
-  if (unsolved_ == 0) return;
-  unsolved_ = 0;
+  if (unsolved_cost_ == 0.0) return;
+  unsolved_cost_ = 0.0;
   graph_.solve("outweighed by later closures");
 }
 

@@ -39,7 +39,7 @@ class LoopCloser {
   flow::GraphCorrection search_again(flow::SubmapId first);
 
   /// True if finish() has work to do.
-  bool has_unfinished_work() const { return !searches_.is_empty() || unsolved_ > 0; }
+  bool has_unfinished_work() const { return !searches_.is_empty() || unsolved_cost_ > 0.0; }
 
   /// True if constraints connect the newest submap to the first one.
   bool is_connected() const;
@@ -79,7 +79,7 @@ class LoopCloser {
   bool gnss_is_sound_ = true;  ///< By the last correction.
   SearchQueue searches_;
   std::vector<Hypothesis> waiting_;
-  int unsolved_ = 0;  ///< Closures since the last solve.
+  double unsolved_cost_ = 0.0;  ///< Sum of squared errors of the closures since the last solve.
   std::uint32_t sequence_ = 0;
 };
 

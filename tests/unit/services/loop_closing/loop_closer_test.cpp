@@ -164,6 +164,19 @@ TEST(LoopCloser, SolvesDeferredClosuresAtTheEndOfALongDrive) {
   EXPECT_FALSE(closer.has_unfinished_work());
 }
 
+TEST(LoopCloser, SolvesALargeGraphRarelyWhereItPredictsTheClosures) {
+  const auto submaps = drive(ring(), way_around_the_ring(16.0), 0.0);
+  LoopCloser closer(indoor_loop_closing());
+  LoopClosingCounters at_large;
+  for (const Submap& submap : submaps) {
+    closer.add(submap);
+    if (closer.counters().submaps == 110) at_large = closer.counters();
+  }
+  const auto closures = closer.counters().closures - at_large.closures;
+  EXPECT_GT(closures, 100U);
+  EXPECT_LT(20 * (closer.counters().optimisations - at_large.optimisations), closures);
+}
+
 TEST(LoopCloser, DoesNotConfuseEqualCorridors) {
   // Equal doors at equal distances, and odometry with an error of metres within its covariance.
   FloorPlan plan;
