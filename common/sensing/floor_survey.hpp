@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "common/geometry/pose2.hpp"
+
+namespace slammot::sensing {
+
+/// The floor in the view of a scanner that looks down at it. In the plane of the scan it is a line
+/// that goes along with the vehicle.
+struct FloorInView {
+  /// By beam: readings from this one on are echoes of the floor, or lie beyond it; infinity for a
+  /// beam that does not meet it. In the unit of the readings. Empty: no floor is in view.
+  std::vector<float> from;
+  double distance_m = 0.0;      ///< Of the line from the scanner.
+  double bearing_rad = 0.0;     ///< Of its nearest point in the scanner's frame.
+  double share_of_views = 0.0;  ///< In which it is seen.
+  double share_of_beams = 0.0;  ///< With an echo of something else, over all views.
+
+  bool is_in_view() const { return !from.empty(); }
+
+  /// Replaces its echoes, and what lies beyond, by `nothing`. Scans of another number of beams are
+  /// left as they are.
+  void hide(std::span<float> readings, float nothing) const;
+};
+
+/// What the readings of a scanner mean.
+struct SurveyedBeams {
+  double first_beam_rad = 0.0;
+  double beam_step_rad = 0.0;
+  double laser_heading_rad = 0.0;                              ///< In base.
+  double unit_m = 1.0;                                         ///< Metres per unit of the readings.
+  double no_echo_m = std::numeric_limits<double>::infinity();  ///< From this one on.
+};
+
+/// Finds the floor in the scans of a drive. Along a beam at the angle a the floor has the inverse
+/// range A cos a + B sin a, with the same A and B in all scans, up to the vehicle's pitch and roll.
+/// It is told from walls by three properties: many views that differ otherwise have the same line,
+/// no echo of its beams lies beyond, and a line beside the vehicle stays there when it turns.
+class FloorSurvey {
+ public:
+  /// Readings of one scan, in any unit; not finite or not positive: no echo. is_another_view: the
+  /// readings alone tell that the scanner has moved.
+  void add(std::span<const float> readings, const geometry::Pose2& wheel_from_base,
+           bool is_another_view);
+
+  /// Of a scan; 0 before the first one.
+  std::size_t beams() const { return views_.empty() ? 0 : views_.front().readings.size(); }
+
+  FloorInView conclude(const SurveyedBeams& beams) const;
+
+  struct View {
+    std::vector<float> readings;
+    bool is_in_turn = false;  ///< By odometry since the view before.
+  };
+
+ private:
+  static constexpr std::size_t kMostViews = 256;
+
+  bool has_moved(const geometry::Pose2& wheel_from_base) const;
+
+  std::vector<View> views_;
+  geometry::Pose2 last_pose_;
+  std::size_t every_ = 1;  ///< So many views for one that is kept.
+  std::size_t seen_ = 0;
+};
+
+}  // namespace slammot::sensing
