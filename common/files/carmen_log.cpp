@@ -542,7 +542,10 @@ sensing::LaserScan CarmenLog::scan_of(LaserRecord record, std::size_t scanner,
 void CarmenLog::correct(sensing::LaserScan& scan, std::size_t scanner) const {
   constexpr float kTellsNothing = 1e-3F;  // in any unit nearer than the least range of any scanner
   const matching::LogCorrection& correction = plan_.evidence.correction;
-  if (!plan_.scanners.empty()) scanner_plan(scanner).own_body.hide(scan.range_m, kTellsNothing);
+  if (!plan_.scanners.empty()) {
+    scanner_plan(scanner).own_body.hide(scan.range_m, kTellsNothing);
+    scanner_plan(scanner).floor.hide(scan.range_m, kTellsNothing);
+  }
   if (correction.range_unit_m != 1.0) {
     for (float& range_m : scan.range_m) range_m *= static_cast<float>(correction.range_unit_m);
   }

@@ -96,10 +96,11 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
   plan.odometry_lines = odometry_lines();
   const double unit_m = matching::range_unit_of(main.readings.recorded_quantile(0.5),
                                                 main.readings.recorded_quantile(0.9));
-  take_unit(unit_m, scanners, plan);
+  take_unit(unit_m, fallback_field_of_view_rad, scanners, plan);
   plan.base_from_laser = plan.scanners.front().base_from_laser;
   plan.evidence = weigh(main, plan, fallback_field_of_view_rad);
-  if (correction.range_unit_m != unit_m) take_unit(correction.range_unit_m, scanners, plan);
+  if (correction.range_unit_m != unit_m || correction.field_factor != 1.0)
+    take_unit(correction.range_unit_m, fallback_field_of_view_rad, scanners, plan);
   if (correction.laser_turn_rad != 0.0)
     plan.base_from_laser.heading_rad =
         geometry::wrap_angle(plan.base_from_laser.heading_rad + correction.laser_turn_rad);
@@ -117,15 +118,17 @@ LogPlan CarmenSurvey::conclude(double fallback_field_of_view_rad, const ScannerW
   return plan;
 }
 
-/// Readings are of this unit: how far they reach, and what of the vehicle is in view.
-void CarmenSurvey::take_unit(double unit_m, std::vector<ScannerSurvey>& scanners,
-                             LogPlan& plan) const {
+/// Readings are of this unit: how far they reach, and what of the vehicle and the floor is in view.
+void CarmenSurvey::take_unit(double unit_m, double fallback_field_of_view_rad,
+                             std::vector<ScannerSurvey>& scanners, LogPlan& plan) const {
   plan.evidence.correction.range_unit_m = unit_m;
   plan.scanners.clear();
   for (ScannerSurvey& scanner : scanners) {
     if (unit_m != 1.0) scanner.readings.recount(unit_m);
-    plan.scanners.push_back(scanner_plan_of(scanner, params_));
-    plan.scanners.back().own_body = scanner.own_body.conclude(unit_m);
+    ScannerPlan& planned = plan.scanners.emplace_back(scanner_plan_of(scanner, params_));
+    planned.own_body = scanner.own_body.conclude(unit_m);
+    planned.floor = scanner.floor.conclude(
+        surveyed_beams_of(scanner, planned, plan.evidence.correction, fallback_field_of_view_rad));
   }
   plan.max_range_m = plan.scanners.front().max_range_m;
 }

@@ -41,7 +41,8 @@ class CarmenSurvey {
   void add_odometry(const OdometryRecord& record);
   matching::LogEvidence weigh(const ScannerSurvey& scanner, const LogPlan& plan,
                               double fallback_field_of_view_rad) const;
-  void take_unit(double unit_m, std::vector<ScannerSurvey>& scanners, LogPlan& plan) const;
+  void take_unit(double unit_m, double fallback_field_of_view_rad,
+                 std::vector<ScannerSurvey>& scanners, LogPlan& plan) const;
   OdometryRecordKind odometry_lines() const;
   const OdometryLines& chosen_odometry_lines() const {
     return odometry_lines_[static_cast<std::size_t>(odometry_lines())];

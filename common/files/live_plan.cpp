@@ -12,7 +12,10 @@ LogPlan as_live(LogPlan plan) {
   plan.base_from_laser.heading_rad =
       geometry::wrap_angle(plan.base_from_laser.heading_rad - found.laser_turn_rad);
   if (!plan.scanners.empty()) plan.scanners.front().base_from_laser = plan.base_from_laser;
-  for (ScannerPlan& scanner : plan.scanners) scanner.own_body = {};
+  for (ScannerPlan& scanner : plan.scanners) {
+    scanner.own_body = {};
+    scanner.floor = {};
+  }
   if (plan.times.fault == sensing::ClockFault::kNoisy) plan.times = {};
   plan.odometry = plan.recorded_odometry;
   plan.odometry_held_scans = 0;

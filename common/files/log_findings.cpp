@@ -117,6 +117,27 @@ void describe_own_bodies(const LogPlan& plan, std::vector<std::string>& findings
   }
 }
 
+void describe_floor(const LogPlan& plan, std::vector<std::string>& findings) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  constexpr double kLittle = 0.25;
+  for (const ScannerPlan& scanner : plan.scanners) {
+    const sensing::FloorInView& floor = scanner.floor;
+    if (!floor.is_in_view()) continue;
+    const double bearing_rad =
+        geometry::wrap_angle(floor.bearing_rad + scanner.base_from_laser.heading_rad);
+    findings.push_back(
+        text("scanner%s looks down: beams meet the floor %.1f m away, %.0f degrees to the %s, in "
+             "%.0f %% "
+             "of the views: echoes there and beyond are left out",
+             plan.scanners.size() > 1 ? (" " + scanner.name).c_str() : "", floor.distance_m,
+             std::abs(bearing_rad) * kDegrees, bearing_rad < 0.0 ? "right" : "left",
+             100.0 * floor.share_of_views));
+    if (floor.share_of_beams < kLittle)
+      findings.back() += text("; only %.0f %% of the beams see anything else: mount it level",
+                              100.0 * floor.share_of_beams);
+  }
+}
+
 void describe_gaps(const LogPlan& plan, std::vector<std::string>& findings) {
   constexpr double kLongGap = 10.0;  // periods
   constexpr std::size_t kFewBeams = 32;
@@ -300,6 +321,7 @@ std::vector<std::string> describe_findings(const LogPlan& plan) {
   describe_signs(plan, findings);
   describe_ranges(plan, findings);
   describe_own_bodies(plan, findings);
+  describe_floor(plan, findings);
   describe_gaps(plan, findings);
   describe_doubts(plan, findings);
   for (const std::string& name : plan.unplaced_scanners)

@@ -10,6 +10,7 @@
 #include "common/files/result.hpp"
 #include "common/files/topic_choice.hpp"
 #include "common/matching/log_evidence.hpp"
+#include "common/sensing/floor_survey.hpp"
 #include "common/sensing/own_body.hpp"
 #include "common/sensing/scan_times.hpp"
 #include "common/sensing/spatial_mounting.hpp"
@@ -69,6 +70,7 @@ struct ScannerPlan {
   double max_range_m = 0.0;          ///< As in LogPlan.
   double refuted_max_range_m = 0.0;  ///< Stated by the log, below many of the readings: ignored.
   sensing::OwnBody own_body;         ///< In recorded units, as readings are written.
+  sensing::FloorInView floor;        ///< In recorded units, as readings are written.
   bool mounting_is_known = true;     ///< From the log; otherwise base_from_laser is a guess.
   std::optional<sensing::SpatialMounting> profile_mounting;  ///< Of a scanner that scans a vertical
                                                              ///< profile.

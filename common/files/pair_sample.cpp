@@ -77,10 +77,11 @@ std::vector<matching::ScanPair> with_echoes_of_others(std::vector<matching::Scan
                                                       const LogPlan& plan) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   if (pairs.empty()) return pairs;
-  const sensing::OwnBody& own_body = plan.scanners.front().own_body;
+  const ScannerPlan& scanner = plan.scanners.front();
   const auto no_echo = static_cast<float>(plan.max_range_m / plan.evidence.correction.range_unit_m);
   const auto leave_out = [&](std::vector<float>& ranges) {
-    own_body.hide(ranges, kNone);
+    scanner.own_body.hide(ranges, kNone);
+    scanner.floor.hide(ranges, kNone);
     for (float& range : ranges) range = range > 0.0F && range < no_echo ? range : kNone;
   };
   for (matching::ScanPair& pair : pairs) {

@@ -53,6 +53,7 @@ ScannerPlan scanner_plan_of(const ScannerSurvey& scanner, const MountingParams& 
           .max_range_m = scanner.readings.max_range_m(refuted_m > 0.0 ? 0.0 : stated_m),
           .refuted_max_range_m = refuted_m,
           .own_body = {},
+          .floor = {},
           .mounting_is_known = is_mounting_known(scanner, params),
           .profile_mounting = {}};
 }

@@ -23,11 +23,11 @@ void ScannerSurvey::add(const LaserRecord& record, std::int64_t line,
   mounting.add(record);
   poses.add(record.wheel_from_base);
   held_poses.add(record.wheel_from_base);
-  own_body.add(record.range_m);
-  pairs.add(record,
-            poses.change ? record.wheel_from_base
-                         : lines[static_cast<std::size_t>(lines_kind)].poses.last(),
-            scan);
+  const geometry::Pose2 recorded = poses.change
+                                       ? record.wheel_from_base
+                                       : lines[static_cast<std::size_t>(lines_kind)].poses.last();
+  floor.add(record.range_m, recorded, own_body.add(record.range_m));
+  pairs.add(record, recorded, scan);
   stamps.add(record.stamps);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     lines_between[i].before_scan.push_back(std::exchange(lines_between[i].since_scan, 0));
@@ -45,6 +45,18 @@ matching::AssumedBeams assumed_beams_of(const ScannerSurvey& scanner, const LogP
       scanner.layout.value_or(layout_by_convention(beams, fallback_field_of_view_rad));
   return {layout.first_beam_rad, layout.beam_step_rad, plan.base_from_laser.heading_rad,
           plan.base_from_laser.translation_m()};
+}
+
+sensing::SurveyedBeams surveyed_beams_of(const ScannerSurvey& scanner, const ScannerPlan& plan,
+                                         const matching::LogCorrection& correction,
+                                         double fallback_field_of_view_rad) {
+  const BeamLayout layout = scanner.layout.value_or(
+      layout_by_convention(scanner.floor.beams(), fallback_field_of_view_rad));
+  return {.first_beam_rad = layout.first_beam_rad * correction.field_factor,
+          .beam_step_rad = layout.beam_step_rad * correction.field_factor,
+          .laser_heading_rad = plan.base_from_laser.heading_rad,
+          .unit_m = correction.range_unit_m,
+          .no_echo_m = plan.max_range_m};
 }
 
 }  // namespace slammot::files

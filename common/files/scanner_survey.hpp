@@ -13,6 +13,7 @@
 #include "common/files/pair_sample.hpp"
 #include "common/files/reading_histogram.hpp"
 #include "common/files/recorded_odometry.hpp"
+#include "common/sensing/floor_survey.hpp"
 #include "common/sensing/odometry_sampling.hpp"
 #include "common/sensing/own_body.hpp"
 
@@ -51,6 +52,7 @@ struct ScannerSurvey {
   OdometryAgreement agreement;                ///< By ipc time.
   OdometryAgreement agreement_by_order;       ///< By the lines' order in the log.
   sensing::OwnBodySurvey own_body;
+  sensing::FloorSurvey floor;
   ScanPairSurvey pairs;
 
   /// line: number of the record in the log. kind: which lines count as odometry where the poses of
@@ -63,5 +65,10 @@ struct ScannerSurvey {
 /// records without a layout.
 matching::AssumedBeams assumed_beams_of(const ScannerSurvey& scanner, const LogPlan& plan,
                                         std::size_t beams, double fallback_field_of_view_rad);
+
+/// Of the scans in which the floor is looked for, by the corrections of unit and field of view.
+sensing::SurveyedBeams surveyed_beams_of(const ScannerSurvey& scanner, const ScannerPlan& plan,
+                                         const matching::LogCorrection& correction,
+                                         double fallback_field_of_view_rad);
 
 }  // namespace slammot::files

@@ -64,16 +64,17 @@ bool OwnBodySurvey::is_another_view(std::span<const float> readings) const {
          static_cast<double>(changed) > kChangedShare * static_cast<double>(compared);
 }
 
-void OwnBodySurvey::add(std::span<const float> readings) {
+bool OwnBodySurvey::add(std::span<const float> readings) {
   if (!last_view_.empty() && (readings.size() != last_view_.size() || !is_another_view(readings)))
-    return;
+    return false;
   last_view_.assign(readings.begin(), readings.end());
-  if (seen_++ % every_ != 0) return;
+  if (seen_++ % every_ != 0) return true;
   views_.push_back(last_view_);
-  if (views_.size() < kMostViews) return;
+  if (views_.size() < kMostViews) return true;
   every_ *= 2;
   for (std::size_t i = 0; 2 * i < views_.size(); ++i) std::swap(views_[i], views_[2 * i]);
   views_.resize((views_.size() + 1) / 2);
+  return true;
 }
 
 OwnBody OwnBodySurvey::conclude(double unit_m) const {

@@ -22,8 +22,9 @@ struct OwnBody {
 /// a scanner that moves. A view counts when it differs from the last one in many beams.
 class OwnBodySurvey {
  public:
-  /// Readings of one scan, in any unit; not finite or not positive: no echo.
-  void add(std::span<const float> readings);
+  /// Readings of one scan, in any unit; not finite or not positive: no echo. Returns whether they
+  /// are another view than the last one.
+  bool add(std::span<const float> readings);
 
   /// unit_m: metres per unit of the readings.
   OwnBody conclude(double unit_m) const;

@@ -51,6 +51,20 @@ TEST(DescribeFindings, SaysThatReadingsReachBeyondTheStatedMaximum) {
               ElementsAre(HasSubstr("beyond the maximum range of 8 m that the log states")));
 }
 
+TEST(DescribeFindings, SaysThatAScannerLooksDownAndWhetherItSeesLittleElse) {
+  LogPlan plan = sound_plan();
+  plan.scanners.push_back({.floor = {.from = {6.0F},
+                                     .distance_m = 6.7,
+                                     .bearing_rad = -0.5,
+                                     .share_of_views = 0.8,
+                                     .share_of_beams = 0.7}});
+  EXPECT_THAT(describe_findings(plan),
+              ElementsAre("scanner looks down: beams meet the floor 6.7 m away, 29 degrees to the "
+                          "right, in 80 % of the views: echoes there and beyond are left out"));
+  plan.scanners.front().floor.share_of_beams = 0.1;
+  EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("only 10 % of the beams")));
+}
+
 TEST(DescribeFindings, SaysThatTheWayHasTheWrongSign) {
   LogPlan plan = sound_plan();
   plan.evidence.correction.position_turn_rad = 3.14159;
