@@ -471,6 +471,10 @@ void CarmenLog::finish_reading() {
   plan_.figures = plan.figures;
   plan_.evidence = plan.evidence;
   plan_.evidence.correction = {};  // earlier returned scans were not corrected
+  for (std::size_t i = 0; i < std::min(plan_.scanners.size(), plan.scanners.size()); ++i) {
+    plan_.scanners[i].floor = plan.scanners[i].floor;
+    plan_.scanners[i].floor.from.clear();
+  }
 }
 
 std::optional<std::int64_t> CarmenLog::recorded_stamp_ns(const CarmenStamps& stamps) const {

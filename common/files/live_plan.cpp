@@ -14,7 +14,7 @@ LogPlan as_live(LogPlan plan) {
   if (!plan.scanners.empty()) plan.scanners.front().base_from_laser = plan.base_from_laser;
   for (ScannerPlan& scanner : plan.scanners) {
     scanner.own_body = {};
-    scanner.floor = {};
+    scanner.floor.from.clear();  // It is said all the same.
   }
   if (plan.times.fault == sensing::ClockFault::kNoisy) plan.times = {};
   plan.odometry = plan.recorded_odometry;

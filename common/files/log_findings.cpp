@@ -1,7 +1,9 @@
 #include "common/files/log_findings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "common/files/text.hpp"
 
@@ -117,27 +119,6 @@ void describe_own_bodies(const LogPlan& plan, std::vector<std::string>& findings
   }
 }
 
-void describe_floor(const LogPlan& plan, std::vector<std::string>& findings) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
-  constexpr double kLittle = 0.25;
-  for (const ScannerPlan& scanner : plan.scanners) {
-    const sensing::FloorInView& floor = scanner.floor;
-    if (!floor.is_in_view()) continue;
-    const double bearing_rad =
-        geometry::wrap_angle(floor.bearing_rad + scanner.base_from_laser.heading_rad);
-    findings.push_back(
-        text("scanner%s looks down: beams meet the floor %.1f m away, %.0f degrees to the %s, in "
-             "%.0f %% "
-             "of the views: echoes there and beyond are left out",
-             plan.scanners.size() > 1 ? (" " + scanner.name).c_str() : "", floor.distance_m,
-             std::abs(bearing_rad) * kDegrees, bearing_rad < 0.0 ? "right" : "left",
-             100.0 * floor.share_of_views));
-    if (floor.share_of_beams < kLittle)
-      findings.back() += text("; only %.0f %% of the beams see anything else: mount it level",
-                              100.0 * floor.share_of_beams);
-  }
-}
-
 void describe_gaps(const LogPlan& plan, std::vector<std::string>& findings) {
   constexpr double kLongGap = 10.0;  // periods
   constexpr std::size_t kFewBeams = 32;
@@ -241,6 +222,10 @@ std::string describe_time(const LogPlan& plan) {
               figures.longest_gap_s);
 }
 
+bool takes_floor_for_wall(const ScannerPlan& scanner) {
+  return scanner.floor.is_in_view() && !scanner.floor.is_left_out();
+}
+
 std::string describe_profiles_of(const ScannerPlan& scanner) {
   const Eigen::Vector3d& position_m = scanner.profile_mounting->position_in_base_m;
   return scanner.name + text(
@@ -291,6 +276,8 @@ std::string describe_log(const LogPlan& plan) {
 
 std::string likely_causes(const LogPlan& plan) {
   const matching::LogEvidence& evidence = plan.evidence;
+  if (std::ranges::any_of(plan.scanners, takes_floor_for_wall))
+    return "the scanner looks down at the floor";
   if (plan.odometry == OdometrySource::kNone)
     return "no odometry, and scans too far apart or too much alike";
   if (evidence.pairs > 0 && evidence.matched_share < 0.5)
@@ -314,6 +301,32 @@ bool scans_show_motion(const LogPlan& plan) {
   return plan.evidence.pairs == 0 || !sees_little || plan.evidence.matched_share >= kFewPairs;
 }
 
+std::vector<std::string> describe_floor(const LogPlan& plan) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  constexpr double kLittle = 0.25;
+  std::vector<std::string> findings;
+  for (const ScannerPlan& scanner : plan.scanners) {
+    const sensing::FloorInView& floor = scanner.floor;
+    if (!floor.is_in_view()) continue;
+    const double bearing_rad =
+        geometry::wrap_angle(floor.bearing_rad + scanner.base_from_laser.heading_rad);
+    findings.push_back(
+        text("scanner%s looks down: beams meet the floor %.1f m away, %.0f degrees to the %s, in "
+             "%.0f %% "
+             "of the views: %s",
+             plan.scanners.size() > 1 ? (" " + scanner.name).c_str() : "", floor.distance_m,
+             std::abs(bearing_rad) * kDegrees, bearing_rad < 0.0 ? "right" : "left",
+             100.0 * floor.share_of_views,
+             floor.is_left_out() ? "echoes there and beyond are left out"
+                                 : "taken for a wall, since only a log that is read twice tells it "
+                                   "before the drive"));
+    if (floor.share_of_beams < kLittle)
+      findings.back() += text("; only %.0f %% of the beams see anything else: mount it level",
+                              100.0 * floor.share_of_beams);
+  }
+  return findings;
+}
+
 std::vector<std::string> describe_findings(const LogPlan& plan) {
   std::vector<std::string> findings;
   if (auto clock = describe_clock(plan); !clock.empty()) findings.push_back(std::move(clock));
@@ -321,7 +334,7 @@ std::vector<std::string> describe_findings(const LogPlan& plan) {
   describe_signs(plan, findings);
   describe_ranges(plan, findings);
   describe_own_bodies(plan, findings);
-  describe_floor(plan, findings);
+  for (std::string& floor : describe_floor(plan)) findings.push_back(std::move(floor));
   describe_gaps(plan, findings);
   describe_doubts(plan, findings);
   for (const std::string& name : plan.unplaced_scanners)

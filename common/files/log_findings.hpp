@@ -20,6 +20,10 @@ bool scans_show_motion(const LogPlan& plan);
 /// without defects.
 std::vector<std::string> describe_findings(const LogPlan& plan);
 
+/// Of these, which scanners look down at the floor. Known after the drive where no log is read
+/// twice.
+std::vector<std::string> describe_floor(const LogPlan& plan);
+
 /// Source of odometry and its evaluation by matched pairs of scans, in one line.
 std::string describe_odometry(const LogPlan& plan);
 

@@ -13,14 +13,15 @@ namespace slammot::sensing {
 /// that goes along with the vehicle.
 struct FloorInView {
   /// By beam: readings from this one on are echoes of the floor, or lie beyond it; infinity for a
-  /// beam that does not meet it. In the unit of the readings. Empty: no floor is in view.
+  /// beam that does not meet it. In the unit of the readings. Empty: it is not left out.
   std::vector<float> from;
-  double distance_m = 0.0;      ///< Of the line from the scanner.
+  double distance_m = 0.0;      ///< Of the line from the scanner; 0: no floor is in view.
   double bearing_rad = 0.0;     ///< Of its nearest point in the scanner's frame.
   double share_of_views = 0.0;  ///< In which it is seen.
   double share_of_beams = 0.0;  ///< With an echo of something else, over all views.
 
-  bool is_in_view() const { return !from.empty(); }
+  bool is_in_view() const { return distance_m > 0.0; }
+  bool is_left_out() const { return !from.empty(); }
 
   /// Replaces its echoes, and what lies beyond, by `nothing`. Scans of another number of beams are
   /// left as they are.

@@ -1,5 +1,6 @@
 #include "services/slammot/job_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -57,6 +58,18 @@ std::string describe_faults(const files::LogFaults& faults) {
   std::string lines;
   for (const std::string& skipped : describe_skipped(faults))
     lines += "warning:  " + skipped + "\n";
+  return lines;
+}
+
+/// A floor that was taken for a wall; one that is left out is told before the drive.
+std::string describe_floor_in_map(const files::LogPlan& plan) {
+  const bool is_in_map = std::ranges::any_of(plan.scanners, [](const files::ScannerPlan& scanner) {
+    return scanner.floor.is_in_view() && !scanner.floor.is_left_out();
+  });
+  std::string lines;
+  if (!is_in_map) return lines;
+  for (const std::string& finding : files::describe_floor(plan))
+    lines += "warning:  " + finding + "\n";
   return lines;
 }
 
@@ -125,8 +138,8 @@ std::string describe_outcome(const files::RunRecord& record, const files::RunRep
   lines += text("%.1f s of processing, %.1f times real time, %.0f MB peak memory\n",
                 report.measured.wall_s, report.measured.real_time_factor,
                 report.measured.peak_memory_mb);
-  return lines + describe_left_out(record, report) + describe_faults(report.faults) +
-         "results are in " + output.string() + "\n";
+  return lines + describe_floor_in_map(report.plan) + describe_left_out(record, report) +
+         describe_faults(report.faults) + "results are in " + output.string() + "\n";
 }
 
 std::string describe_leftovers(const JobOptions& options) {

@@ -1,5 +1,6 @@
 #include "common/files/carmen_survey.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -286,6 +287,37 @@ TEST(CarmenSurvey, TellsOdometryInMillimetresWhereScansFollowEachOtherClosely) {
   const LogPlan plan = survey.conclude(pi);
   EXPECT_EQ(plan.evidence.correction.way_unit_m, 1e-3);
   EXPECT_NEAR(plan.figures.distance_m, 7.9, 0.1);
+}
+
+/// Scan of a hall of 30 x 20 m by a scanner whose beams meet the floor 5 m ahead of it.
+LaserRecord scan_of_a_hall(const Pose2& world_from_laser) {
+  constexpr std::size_t kHallBeams = 181;
+  LaserRecord record;
+  record.wheel_from_base = world_from_laser;
+  for (std::size_t beam = 0; beam < kHallBeams; ++beam) {
+    const double angle_rad = (static_cast<double>(beam) - 90.0) * pi / 180.0;
+    const double x = std::cos(world_from_laser.heading_rad + angle_rad);
+    const double y = std::sin(world_from_laser.heading_rad + angle_rad);
+    const double end_m = (std::copysign(15.0, x) - world_from_laser.x_m) / x;
+    const double side_m = (std::copysign(10.0, y) - world_from_laser.y_m) / y;
+    const double floor_m = 5.0 / std::max(1e-3, std::cos(angle_rad));
+    record.range_m.push_back(static_cast<float>(std::min({end_m, side_m, floor_m})));
+  }
+  return record;
+}
+
+TEST(CarmenSurvey, FindsTheFloorThatAScannerLooksDownAt) {
+  CarmenSurvey survey;
+  for (int i = 0; i < 200; ++i) {
+    LaserRecord record = scan_of_a_hall(
+        {9.0 * std::sin(0.1 * i), 6.0 * std::sin(0.13 * i), geometry::wrap_angle(0.07 * i + 0.01)});
+    record.stamps = {kSecond + i * kSecond / 10, i * kSecond / 10};
+    survey.add(record);
+  }
+  const sensing::FloorInView floor = survey.conclude(pi).scanners.front().floor;
+  ASSERT_TRUE(floor.is_left_out());
+  EXPECT_NEAR(floor.distance_m, 5.0, 0.1);
+  EXPECT_LT(floor.from[90], 5.0F);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/files/live_plan.hpp"
+
 namespace slammot::files {
 namespace {
 
@@ -63,6 +65,10 @@ TEST(DescribeFindings, SaysThatAScannerLooksDownAndWhetherItSeesLittleElse) {
                           "right, in 80 % of the views: echoes there and beyond are left out"));
   plan.scanners.front().floor.share_of_beams = 0.1;
   EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("only 10 % of the beams")));
+  plan.recorded_odometry = plan.odometry;
+  plan = as_live(plan);
+  EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("taken for a wall")));
+  EXPECT_THAT(likely_causes(plan), HasSubstr("looks down"));
 }
 
 TEST(DescribeFindings, SaysThatTheWayHasTheWrongSign) {
