@@ -136,10 +136,19 @@ bool may_be_a_wall(const RepeatedLine& floor, const LineEvidence& evidence,
              std::max(kFewestInTurns, kLeastInTurns * expected_in_turns);
 }
 
-bool is_seen_often(const LineEvidence& evidence) {
-  constexpr std::size_t kFewestWithIt = 15;
+constexpr double kFewestWithIt = 15.0;
+
+/// Single echoes meet any line; stretches of it are seen of a line that is there.
+bool is_seen_often(const RepeatedLine& mode, std::size_t views) {
+  constexpr double kLeastShare = 0.15;
+  return static_cast<double>(mode.scans) >=
+         std::max(kFewestWithIt, kLeastShare * static_cast<double>(views));
+}
+
+bool is_met_often(const LineEvidence& evidence) {
   constexpr double kLeastShare = 0.25;
-  return evidence.all_with_it() >= kFewestWithIt && evidence.share_of_views() >= kLeastShare;
+  return static_cast<double>(evidence.all_with_it()) >= kFewestWithIt &&
+         evidence.share_of_views() >= kLeastShare;
 }
 
 /// Walls have openings and ends: of the lines of the recorded logs at least a fifth of the echoes
@@ -161,11 +170,10 @@ std::optional<Floor> floor_near(const RepeatedLine& mode, const InverseScans& sc
                                 std::span<const FloorSurvey::View> views,
                                 double laser_heading_rad) {
   constexpr double kMostSpread = 0.05;  // of walls at any distance: 0.09
-  if (mode.spread > kMostSpread || !is_seen_often(evidence_of(mode, scans, views)))
-    return std::nullopt;
+  if (mode.spread > kMostSpread || !is_seen_often(mode, views.size())) return std::nullopt;
   const RepeatedLine line = fitted(mode, scans);
   const LineEvidence evidence = evidence_of(line, scans, views);
-  if (!is_seen_often(evidence) || !is_last(evidence) ||
+  if (!is_met_often(evidence) || !is_last(evidence) ||
       may_be_a_wall(line, evidence, laser_heading_rad))
     return std::nullopt;
   return Floor{line, evidence};

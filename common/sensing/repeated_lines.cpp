@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "common/geometry/order_statistics.hpp"
 
@@ -117,22 +118,25 @@ RepeatedLine mode_near(const Vector2& line_per_m, std::span<const Sighting> sigh
   constexpr double kSigmaOfMedian = 1.4826;
   constexpr double kNarrowest = 0.05;  // relative
   constexpr double kWidest = 0.15;
-  RepeatedLine mode{line_per_m, kWidest};
+  RepeatedLine mode{line_per_m, kWidest, 0};
   std::vector<double> off;
   for (int i = 0; i < kIterations; ++i) {
     const Vector2 centre = mode.inverse_per_m;
     const double reach = std::clamp(4.0 * mode.spread, kNarrowest, kWidest);
     Vector2 sum = Vector2::Zero();
     off.clear();
+    std::size_t scans = 0;
+    std::size_t newest = sightings.size();
     for (const Sighting& sighting : sightings) {
       const Vector2 difference = (sighting.line_per_m - centre) / centre.norm();
       if (difference.norm() > reach) continue;
       sum += sighting.line_per_m;
+      scans += std::exchange(newest, sighting.scan) != sighting.scan ? 1 : 0;
       off.push_back(std::abs(difference.dot(centre)) / centre.norm());
     }
     if (off.empty()) return mode;
     mode = {sum / static_cast<double>(off.size()),
-            kSigmaOfMedian * geometry::upper_median_in_place(off)};
+            kSigmaOfMedian * geometry::upper_median_in_place(off), scans};
   }
   return mode;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct InverseScans {
 struct RepeatedLine {
   geometry::Vector2 inverse_per_m;  ///< Its product with a beam's direction is the inverse range.
   double spread = 0.0;              ///< One sigma of the inverse distance, relative.
+  std::size_t scans = 0;            ///< In which it is seen.
 
   double inverse_distance_per_m() const { return inverse_per_m.norm(); }
 };

@@ -36,6 +36,7 @@ TEST(RepeatedLines, BeginWithTheLineThatMostScansHave) {
   const RepeatedLine found = repeated_lines(scans_with_line(line, 0.0)).front();
   EXPECT_LT((found.inverse_per_m - line).norm(), 0.002);
   EXPECT_LT(found.spread, 0.01);
+  EXPECT_GT(found.scans, 40U);
 }
 
 TEST(RepeatedLines, TellHowMuchALineSways) {
