@@ -40,18 +40,11 @@ void drop_duplicates(std::vector<Hypothesis>& hypotheses) {
   hypotheses = std::move(kept);
 }
 
-/// Drops hypotheses with clearly more contradictions than another. In repetitive corridors most
-/// walls agree at any pose, so that only contradictions distinguish the poses.
 void drop_contradicted(std::vector<Hypothesis>& hypotheses) {
-  constexpr double kComparableShare = 0.5;  // Least quality of the other hypothesis, as a share of
-                                            // this one's.
   const std::vector<Hypothesis> all = hypotheses;
   std::erase_if(hypotheses, [&](const Hypothesis& one) {
-    return std::ranges::any_of(all, [&](const Hypothesis& other) {
-      return contradicted_share_of(one) >
-                 kClearlyWorse * contradicted_share_of(other) + kNoise_share &&
-             other.quality() > kComparableShare * one.quality();
-    });
+    return std::ranges::any_of(
+        all, [&](const Hypothesis& other) { return is_more_contradicted(one, other); });
   });
 }
 
@@ -63,6 +56,13 @@ void drop_low_quality(std::vector<Hypothesis>& hypotheses, double rival_ratio) {
 }
 
 }  // namespace
+
+bool is_more_contradicted(const Hypothesis& one, const Hypothesis& other) {
+  constexpr double kComparableShare = 0.5;  // Least quality of the other hypothesis, as a share of
+                                            // this one's.
+  return contradicted_share_of(one) > kClearlyWorse * contradicted_share_of(other) + kNoise_share &&
+         other.quality() > kComparableShare * one.quality();
+}
 
 void select_on_one_target(std::vector<Hypothesis>& hypotheses, double rival_ratio) {
   drop_duplicates(hypotheses);

@@ -25,6 +25,11 @@ struct Hypothesis {
   double quality() const { return agreement.agreed_share() * agreement.overlap_share(); }
 };
 
+/// True if one has clearly more contradictions than another that fits as well or nearly so. In
+/// repetitive corridors most walls agree at any pose, so that only contradictions distinguish the
+/// poses.
+bool is_more_contradicted(const Hypothesis& one, const Hypothesis& other);
+
 /// Drops duplicates, contradicted and poor hypotheses on one target; best first. Several that
 /// remain compete with each other.
 void select_on_one_target(std::vector<Hypothesis>& hypotheses, double rival_ratio);

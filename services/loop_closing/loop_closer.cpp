@@ -131,6 +131,8 @@ void LoopCloser::take(const SearchQueue::Finished& search) {
   if (std::any_of(found.begin(), found.end(), [](const Hypothesis& one) { return one.has_rivals; }))
     ++counters_.ambiguous;
   waiting_.insert(waiting_.end(), found.begin(), found.end());
+  // The searches on its own island end one after the other.
+  select_on_one_island(submaps(), config_.revisit.rival_ratio, search.source, waiting_);
 }
 
 int LoopCloser::needed_support_for(const Hypothesis& hypothesis) const {

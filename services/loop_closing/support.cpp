@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "common/graphs/pose_graph.hpp"
@@ -66,6 +67,30 @@ bool are_rivals(const SubmapView& submaps, const Hypothesis& a, const Hypothesis
                                                      graph.map_from_node(b.from) * b.from_to.pose);
   return apart.head<2>().norm() > kSamePlaceCells * search_cell_m(submaps.places.at(a.to)) ||
          std::abs(apart.z()) > kSamePlace_rad;
+}
+
+void select_on_one_island(const SubmapView& submaps, double rival_ratio, SubmapId to,
+                          std::vector<Hypothesis>& all) {
+  const auto competes = [&](const Hypothesis& one) {
+    return one.to == to && submaps.graph.are_on_one_island(one.from, to);
+  };
+  const auto is_elsewhere = [&](const Hypothesis& one, const Hypothesis& other) {
+    return one.from != other.from && !agree(submaps, one, other);
+  };
+  std::vector<Hypothesis> competing;
+  std::ranges::copy_if(all, std::back_inserter(competing), competes);
+  std::erase_if(all, [&](const Hypothesis& one) {
+    return competes(one) && std::ranges::any_of(competing, [&](const Hypothesis& other) {
+             return is_more_contradicted(one, other) && is_elsewhere(one, other);
+           });
+  });
+  for (Hypothesis& one : all) {
+    const auto is_rival = [&](const Hypothesis& other) {
+      return competes(other) && other.quality() >= rival_ratio * one.quality() &&
+             is_elsewhere(one, other);
+    };
+    one.has_rivals = one.has_rivals || (competes(one) && std::ranges::any_of(all, is_rival));
+  }
 }
 
 int support_of(const SubmapView& submaps, const std::vector<Hypothesis>& all,

@@ -17,6 +17,12 @@ bool agree(const SubmapView& submaps, const Hypothesis& a, const Hypothesis& b);
 /// True if both place one submap on one island, at different poses.
 bool are_rivals(const SubmapView& submaps, const Hypothesis& a, const Hypothesis& b);
 
+/// Hypotheses of one submap, `to`, on several targets of its island compete, as those on one target
+/// do: drops what is clearly worse than another that places the submap elsewhere. What remains
+/// beside another nearly as good is ambiguous.
+void select_on_one_island(const SubmapView& submaps, double rival_ratio, flow::SubmapId to,
+                          std::vector<Hypothesis>& all);
+
 /// Number of submaps with a hypothesis that agrees with this one, itself included.
 int support_of(const SubmapView& submaps, const std::vector<Hypothesis>& all,
                const Hypothesis& hypothesis);

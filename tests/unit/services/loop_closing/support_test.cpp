@@ -70,6 +70,39 @@ TEST_F(Support, LeavesOutOfTheConsistentSetWhatContradictsItsMembers) {
   EXPECT_EQ(consistent_set(submaps(), all, all.front()).size(), 2U);
 }
 
+TEST_F(Support, DropsWhatIsContradictedWhereAnotherTargetFitsElsewhere) {
+  std::vector<Hypothesis> all{hypothesis(0, 4, 80.0), hypothesis(1, 4, 72.0),
+                              hypothesis(1, 3, 28.0)};
+  all[1].agreement.contradicted = 8;
+  all[2].agreement.contradicted = 8;
+  select_on_one_island(submaps(), 0.75, {4}, all);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].from.value, 0U);
+  EXPECT_FALSE(all[0].has_rivals);
+  EXPECT_EQ(all[1].to.value, 3U) << "another submap's";
+}
+
+TEST_F(Support, IsAmbiguousWhereTargetsPutASubmapAtTwoPlaces) {
+  std::vector<Hypothesis> apart{hypothesis(0, 4, 80.0), hypothesis(1, 4, 72.0)};
+  select_on_one_island(submaps(), 0.75, {4}, apart);
+  ASSERT_EQ(apart.size(), 2U);
+  EXPECT_TRUE(apart[0].has_rivals);
+  EXPECT_TRUE(apart[1].has_rivals);
+  std::vector<Hypothesis> same{hypothesis(0, 4, 80.0), hypothesis(1, 4, 60.2)};
+  select_on_one_island(submaps(), 0.75, {4}, same);
+  ASSERT_EQ(same.size(), 2U);
+  EXPECT_FALSE(same[0].has_rivals);
+  EXPECT_FALSE(same[1].has_rivals);
+}
+
+TEST_F(Support, DoesNotLetHypothesesOnAnotherIslandCompete) {
+  std::vector<Hypothesis> all{hypothesis(0, 4, 80.0), hypothesis(5, 4, 72.0)};
+  all[1].agreement.contradicted = 8;
+  select_on_one_island(submaps(), 0.75, {4}, all);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_FALSE(all[0].has_rivals);
+}
+
 TEST_F(Support, HoldsAClosureAgainstTheUncertaintyOfTheGraph) {
   const Constraint near{{0}, {2}, ConstraintKind::kLoop, hypothesis(0, 2, 40.3).from_to};
   const Constraint far{{0}, {2}, ConstraintKind::kLoop, hypothesis(0, 2, 46.0).from_to};
