@@ -17,9 +17,10 @@ struct Hypothesis {
   flow::SubmapId to;    ///< The new submap.
   geometry::UncertainPose2 from_to;
   Agreement agreement;
-  double score = 0.0;             ///< Of the search, in [0, 1].
-  bool has_rivals = false;        ///< Other poses fit about as well and differ by more than the
-                                  ///< covariance.
+  double score = 0.0;       ///< Of the search, in [0, 1].
+  bool has_rivals = false;  ///< Other poses fit about as well and differ by more than the
+                            ///< covariance.
+  double certainty = 1.0;   ///< Its share among the poses that its submap may have, by quality.
   double searched_sigma_m = 0.0;  ///< One sigma of the expected position.
 
   double quality() const { return agreement.agreed_share() * agreement.overlap_share(); }

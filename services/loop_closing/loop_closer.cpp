@@ -1,6 +1,7 @@
 #include "services/loop_closing/loop_closer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/flow/georeference_verdict.hpp"
@@ -145,7 +146,7 @@ void LoopCloser::close_supported() {
   for (const Hypothesis& hypothesis : waiting_) {
     if (hypothesis.agreement.agreed_share() < config_.revisit.min_agreed_share)
       continue;  // Too weak for a closure; it still supports others.
-    const int support = support_of(submaps(), waiting_, hypothesis);
+    const double support = support_of(submaps(), waiting_, hypothesis);
     if (support < needed_support_for(hypothesis)) continue;
     const bool has_supported_rival =
         std::any_of(waiting_.begin(), waiting_.end(), [&](const Hypothesis& other) {
@@ -154,7 +155,7 @@ void LoopCloser::close_supported() {
           if (is_found_elsewhere)
             return are_rivals(submaps(), hypothesis, other) &&
                    support_of(submaps(), waiting_, other) >=
-                       std::min(support, config_.needed_support);
+                       std::min<double>(support, config_.needed_support);
           const bool is_rival =
               other.to == hypothesis.to && other.from == hypothesis.from && &other != &hypothesis;
           return is_rival && support_of(submaps(), waiting_, other) >= support;
@@ -253,7 +254,8 @@ void LoopCloser::solve_deferred() {
 void LoopCloser::propose(const Hypothesis& hypothesis) {
   flow::Constraint closure = closure_of(hypothesis);
   closure.verdict.reason =
-      "supported by " + std::to_string(support_of(submaps(), waiting_, hypothesis)) + " submaps";
+      "supported by " + std::to_string(std::lround(support_of(submaps(), waiting_, hypothesis))) +
+      " submaps";
   graph_.propose(closure);
 }
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <set>
+#include <map>
+#include <numeric>
 
 #include "common/graphs/pose_graph.hpp"
 #include "services/loop_closing/hypotheses.hpp"
@@ -85,23 +86,29 @@ void select_on_one_island(const SubmapView& submaps, double rival_ratio, SubmapI
            });
   });
   for (Hypothesis& one : all) {
-    const auto is_rival = [&](const Hypothesis& other) {
-      return competes(other) && other.quality() >= rival_ratio * one.quality() &&
-             is_elsewhere(one, other);
-    };
-    one.has_rivals = one.has_rivals || (competes(one) && std::ranges::any_of(all, is_rival));
+    if (!competes(one)) continue;
+    double elsewhere = 0.0;
+    for (const Hypothesis& other : all) {
+      if (&other == &one || !competes(other) || agree(submaps, one, other)) continue;
+      elsewhere += other.quality();
+      one.has_rivals = one.has_rivals || other.quality() >= rival_ratio * one.quality();
+    }
+    one.certainty = one.quality() / (one.quality() + elsewhere);
   }
 }
 
-int support_of(const SubmapView& submaps, const std::vector<Hypothesis>& all,
-               const Hypothesis& hypothesis) {
-  std::set<SubmapId> supporters{hypothesis.to};
+double support_of(const SubmapView& submaps, const std::vector<Hypothesis>& all,
+                  const Hypothesis& hypothesis) {
+  std::map<SubmapId, double> certainties{{hypothesis.to, 1.0}};
   for (const Hypothesis& other : all) {
-    if (other.to != hypothesis.to && are_comparable(submaps.graph, hypothesis, other) &&
-        agree(submaps, hypothesis, other))
-      supporters.insert(other.to);
+    if (other.to == hypothesis.to || !are_comparable(submaps.graph, hypothesis, other) ||
+        !agree(submaps, hypothesis, other))
+      continue;
+    double& certainty = certainties[other.to];
+    certainty = std::max(certainty, other.certainty);
   }
-  return static_cast<int>(supporters.size());
+  const auto add = [](double sum, const auto& one) { return sum + one.second; };
+  return std::accumulate(certainties.begin(), certainties.end(), 0.0, add);
 }
 
 std::vector<Hypothesis> consistent_set(const SubmapView& submaps,

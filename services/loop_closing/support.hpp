@@ -19,13 +19,14 @@ bool are_rivals(const SubmapView& submaps, const Hypothesis& a, const Hypothesis
 
 /// Hypotheses of one submap, `to`, on several targets of its island compete, as those on one target
 /// do: drops what is clearly worse than another that places the submap elsewhere. What remains
-/// beside another nearly as good is ambiguous.
+/// beside another nearly as good is ambiguous, and as certain as its share among them.
 void select_on_one_island(const SubmapView& submaps, double rival_ratio, flow::SubmapId to,
                           std::vector<Hypothesis>& all);
 
-/// Number of submaps with a hypothesis that agrees with this one, itself included.
-int support_of(const SubmapView& submaps, const std::vector<Hypothesis>& all,
-               const Hypothesis& hypothesis);
+/// Number of submaps with a hypothesis that agrees with this one, itself included; another one's
+/// counts by its certainty: one of five poses along a corridor agrees with anything.
+double support_of(const SubmapView& submaps, const std::vector<Hypothesis>& all,
+                  const Hypothesis& hypothesis);
 
 /// The hypothesis and those that agree with it and with each other (pairwise consistency;
 /// Mangelson et al., ICRA 2018, by a greedy clique): at most one of each submap, best first.

@@ -95,6 +95,17 @@ TEST_F(Support, IsAmbiguousWhereTargetsPutASubmapAtTwoPlaces) {
   EXPECT_FALSE(same[1].has_rivals);
 }
 
+TEST_F(Support, CountsOneOfSeveralPosesOfASubmapByItsShare) {
+  // Submap 4 lies at any of four poses along a bare corridor; one of them agrees with submap 3.
+  std::vector<Hypothesis> all{hypothesis(0, 3, 60.0), hypothesis(1, 4, 60.0),
+                              hypothesis(1, 4, 57.0), hypothesis(1, 4, 54.0),
+                              hypothesis(1, 4, 51.0)};
+  EXPECT_EQ(support_of(submaps(), all, all.front()), 2.0);
+  select_on_one_island(submaps(), 0.75, {4}, all);
+  ASSERT_EQ(all.size(), 5U);
+  EXPECT_EQ(support_of(submaps(), all, all.front()), 1.25);
+}
+
 TEST_F(Support, DoesNotLetHypothesesOnAnotherIslandCompete) {
   std::vector<Hypothesis> all{hypothesis(0, 4, 80.0), hypothesis(5, 4, 72.0)};
   all[1].agreement.contradicted = 8;
