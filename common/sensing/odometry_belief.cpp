@@ -119,11 +119,11 @@ void WheelFactorEstimator::observe(const Pose2& by_wheels, const Pose2& by_match
   factors_.way += way_gain * way_innovation_m;
   way_variance_ *= 1.0 - way_gain * way_m;
 
-  const double turn_rad =
-      std::max(std::abs(by_wheels.heading_rad), std::abs(by_matches.heading_rad));
-  const Eigen::Vector2d by(turn_rad > kLeastTurn_rad ? by_wheels.heading_rad : 0.0,
-                           duration_s);  // the rest is noise of both
-  if (turn_rad > kLeastTurn_rad) turn_covariance_(0, 0) += kForgetTurn;
+  // Of a turn by the wheels alone it is not known whether it is one or noise, such as of coarse
+  // encoders, and noise leads to a factor of zero.
+  const bool turns = std::abs(by_matches.heading_rad) > kLeastTurn_rad;
+  const Eigen::Vector2d by(turns ? by_wheels.heading_rad : 0.0, duration_s);
+  if (turns) turn_covariance_(0, 0) += kForgetTurn;
   const double innovation =
       geometry::wrap_angle(by_matches.heading_rad - factors_.turn * by_wheels.heading_rad -
                            factors_.turn_bias_radps * duration_s);

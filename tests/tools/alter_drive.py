@@ -50,6 +50,8 @@ ALTERATIONS = (
     one("--turn-scale", float, "X", alter.turns_scaled, "turns by the wheels"),
     flag("--turns-mirrored", lambda drive: alter.turns_scaled(drive, -1.0), "turns with the wrong sign"),
     one("--yaw-bias", float, "RADPS", alter.yaw_bias, "so much too much turn"),
+    drawn("--turn-noise", "RAD", alter.turns_noisy, "of the turns by the wheels, one sigma after a second"),
+    some("--ticks", ("METRES", "TRACK"), alter.counted, "two wheels TRACK apart are counted in ticks of so many metres"),
     some("--frozen", ("FROM", "TO"), alter.frozen, "the wheels stand while the vehicle goes on"),
     some("--slip", ("FROM", "TO", "MPS"), alter.slipped, "extra speed by the wheels"),
     some("--jump", ("METRES", "AT"), alter.jumped, "the odometry's pose jumps"),

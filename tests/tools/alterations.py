@@ -449,6 +449,33 @@ def yaw_bias(drive, radps):
     return with_motions(drive, lambda motion, before_s, now_s: (*motion[:2], motion[2] + radps * (now_s - before_s)))
 
 
+def turns_noisy(drive, sigma_rad, seed):
+    """Noise on the turns while the vehicle moves; sigma_rad: after one second."""
+    drawn = random.Random(seed)
+
+    def noisy(motion, before_s, now_s):
+        moves = abs(motion[0]) > 1e-4 or abs(motion[2]) > 1e-5
+        noise_rad = drawn.gauss(0.0, sigma_rad * math.sqrt(max(0.0, now_s - before_s))) if moves else 0.0
+        return (*motion[:2], motion[2] + noise_rad)
+
+    return with_motions(drive, noisy)
+
+
+def counted(drive, tick_m, track_m):
+    """Two wheels track_m apart whose ways are counted in whole ticks; no error grows."""
+    ways_m, ticks = [0.0, 0.0], [0, 0]
+
+    def motion_of_ticks(motion, before_s, now_s):
+        steps_m = []
+        for wheel, side in enumerate((-0.5, 0.5)):
+            ways_m[wheel] += motion[0] + side * track_m * motion[2]
+            before, ticks[wheel] = ticks[wheel], math.floor(ways_m[wheel] / tick_m)
+            steps_m.append(tick_m * (ticks[wheel] - before))
+        return 0.5 * sum(steps_m), motion[1], (steps_m[1] - steps_m[0]) / track_m
+
+    return with_motions(drive, motion_of_ticks)
+
+
 def axes_swapped(drive):
     """x is written where y should be, and y where x should be."""
     return drive.with_odometry([(y, x, heading) for x, y, heading in (record.wheel_from_base for record in drive.odometry())])
