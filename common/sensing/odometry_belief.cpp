@@ -106,7 +106,7 @@ StepExplanation most_likely(const ExplanationWeights& weights) {
 }
 
 void WheelFactorEstimator::observe(const Pose2& by_wheels, const Pose2& by_matches,
-                                   double duration_s) {
+                                   double duration_s, bool wheels_tell_turns) {
   if (are_frozen(by_wheels, by_matches)) return;
   ++steps_;
   const double way_m = by_wheels.x_m;
@@ -119,9 +119,8 @@ void WheelFactorEstimator::observe(const Pose2& by_wheels, const Pose2& by_match
   factors_.way += way_gain * way_innovation_m;
   way_variance_ *= 1.0 - way_gain * way_m;
 
-  // Of a turn by the wheels alone it is not known whether it is one or noise, such as of coarse
-  // encoders, and noise leads to a factor of zero.
-  const bool turns = std::abs(by_matches.heading_rad) > kLeastTurn_rad;
+  const double by_wheels_rad = wheels_tell_turns ? std::abs(by_wheels.heading_rad) : 0.0;
+  const bool turns = std::max(by_wheels_rad, std::abs(by_matches.heading_rad)) > kLeastTurn_rad;
   const Eigen::Vector2d by(turns ? by_wheels.heading_rad : 0.0, duration_s);
   if (turns) turn_covariance_(0, 0) += kForgetTurn;
   const double innovation =
@@ -181,6 +180,11 @@ double log_odds_of(const Pose2& by_wheels, const geometry::UncertainPose2& by_sc
   return std::clamp(for_right - for_wrong, kLeast, kMost);
 }
 
+bool wheels_tell_turns(const OdometryBelief& belief) {
+  constexpr double kFrequentScans_s = 0.1;
+  return belief.usual_step_s >= kFrequentScans_s;
+}
+
 bool both_stand(const OdometryComparison& comparison) {
   constexpr double kStill_m = 0.03;
   constexpr double kStill_rad = 0.01;
@@ -210,7 +214,9 @@ OdometryBelief compared(OdometryBelief belief, const OdometryComparison& compari
     belief.log_odds_of_factors =
         std::clamp(belief.log_odds_of_factors + odds_of_factors, -kBound, kBound);
   }
-  if (by_scans) belief.estimator.observe(by_wheels, by_scans->pose, duration_s);
+  if (by_scans) {
+    belief.estimator.observe(by_wheels, by_scans->pose, duration_s, wheels_tell_turns(belief));
+  }
   if (by_scans && belief.log_odds < kWrongBelow && !belief.is_disbelieved) {
     belief.is_disbelieved = true;
     ++belief.disbeliefs;

@@ -76,9 +76,10 @@ class WheelFactorEstimator {
   /// Sets the factors' priors.
   explicit WheelFactorEstimator(const WheelFactors& at_start) : factors_(at_start) {}
 
-  /// One step by odometry (uncorrected) and by matches.
+  /// One step by odometry (uncorrected) and by matches. wheels_tell_turns: a turn by the wheels
+  /// alone is one, too, and not noise.
   void observe(const geometry::Pose2& by_wheels, const geometry::Pose2& by_matches,
-               double duration_s);
+               double duration_s, bool wheels_tell_turns = true);
 
   /// True if way and turn factors are certain enough for predictions.
   bool is_known() const;
@@ -161,6 +162,11 @@ struct OdometryComparison {
                                                         ///< scans refute that the vehicle stood
                                                         ///< since.
 };
+
+/// Where scans come often, a car's turns between them are within the noise of its wheels, such as
+/// of coarse encoders, which fits a factor of zero: scans say when it turns. Where they come seldom
+/// the factor predicts, and is the smaller the noisier the wheels are.
+bool wheels_tell_turns(const OdometryBelief& belief);
 
 OdometryBelief compared(OdometryBelief belief, const OdometryComparison& comparison);
 

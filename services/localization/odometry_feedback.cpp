@@ -106,7 +106,8 @@ void OdometryPrediction::learn_wheels(const Step& step, const ScanMatch& match) 
                                step.wheels.wheel_from_base && state_.last->has_wheels &&
                                !step.wheels.are_doubted;
   if (is_matched && tells_of_wheels && !match.was_sampled)
-    belief.estimator.observe(step.wheels.uncorrected, matched_step(step, match), step.duration_s);
+    belief.estimator.observe(step.wheels.uncorrected, matched_step(step, match), step.duration_s,
+                             sensing::wheels_tell_turns(belief));
   const bool is_better =
       belief.weights[sensing::index_of(sensing::StepExplanation::kRecalibrated)] > kAdoptAbove;
   belief.recalibrated_scans = is_better ? belief.recalibrated_scans + 1 : 0;

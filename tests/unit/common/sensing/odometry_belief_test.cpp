@@ -230,7 +230,8 @@ TEST(WheelFactorEstimator, TakesNoiseOfTheHeadingForNoTurns) {
   std::normal_distribution<double> of_matches_rad(0.0, 0.001);
   WheelFactorEstimator estimator;
   for (int step = 0; step < 500; ++step)
-    estimator.observe({0.25, 0.0, turn_rad(random)}, {0.25, 0.0, of_matches_rad(random)}, 0.027);
+    estimator.observe({0.25, 0.0, turn_rad(random)}, {0.25, 0.0, of_matches_rad(random)}, 0.027,
+                      false);
   EXPECT_NEAR(estimator.factors().turn, 1.0, 0.05);
   EXPECT_GT(estimator.turn_sigma(), 1.0);
 }
