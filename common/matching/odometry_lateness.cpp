@@ -46,16 +46,21 @@ std::optional<Pose2> motion_at(const TimedPair& pair, std::span<const TimedPose>
   return motion_between(odometry, pair.first_s + delay_s, pair.second_s + delay_s);
 }
 
+double squared_turn_error(const ScanPairMotion& pair, double turn_rad) {
+  const double turn = geometry::wrap_angle(turn_rad - pair.turn_rad) /
+                      (kTurnSigma_rad + kTurnShare * std::abs(pair.turn_rad));
+  return turn * turn;
+}
+
 double squared_error(const ScanPairMotion& pair, const Pose2& by_odometry,
                      const MotionScale& scale) {
-  const double turn = geometry::wrap_angle(scale.turn * by_odometry.heading_rad - pair.turn_rad) /
-                      (kTurnSigma_rad + kTurnShare * std::abs(pair.turn_rad));
+  const double turn = squared_turn_error(pair, scale.turn * by_odometry.heading_rad);
   const double way = (scale.way * by_odometry.translation_m().norm() - pair.way_m) /
                      (kWaySigma_m + kWayShare * pair.way_m);
   const bool is_straight = std::abs(pair.turn_rad) < kStraight_rad;  // otherwise the laser's way
                                                                      // differs from that of the
                                                                      // base
-  return std::min(turn * turn + (is_straight ? way * way : 0.0), kMostSquaredError);
+  return std::min(turn + (is_straight ? way * way : 0.0), kMostSquaredError);
 }
 
 /// A delay changes the ratio of turns by some percent. Wheels that turn too much or too little by
@@ -77,6 +82,21 @@ std::vector<TimedPair> covered(std::span<const ScanPairMotion> pairs,
       some.push_back(pair);
   }
   return some;
+}
+
+/// Whether odometry read so much later fits the turns better than a vehicle that never turns. Turns
+/// that are noise do not, whenever they are read; but other noise is read at each delay, so that
+/// one of them fits best by far.
+bool tells_turns(const std::vector<TimedPair>& compared, std::span<const TimedPose> odometry,
+                 double delay_s, double turn_scale) {
+  double by_odometry = 0.0;
+  double without = 0.0;
+  for (const TimedPair& pair : compared) {
+    const double turn_rad = turn_scale * motion_at(pair, odometry, delay_s)->heading_rad;
+    by_odometry += std::min(squared_turn_error(pair.motion, turn_rad), kMostSquaredError);
+    without += std::min(squared_turn_error(pair.motion, 0.0), kMostSquaredError);
+  }
+  return by_odometry < without;
 }
 
 }  // namespace
@@ -112,7 +132,8 @@ double odometry_lateness_s(std::span<const ScanPairMotion> pairs,
   const double within =
       bend > 0.0 ? std::clamp(0.5 * (at(best - 1) - at(best + 1)) / bend, -0.5, 0.5) : 0.0;
   const double delay_s = (static_cast<double>(best - kSteps) + within) * kStep_s;
-  return std::abs(delay_s) < kLeast_s ? 0.0 : delay_s;
+  const bool is_large = std::abs(delay_s) >= kLeast_s;
+  return is_large && tells_turns(compared, odometry, delay_s, scale.turn) ? delay_s : 0.0;
 }
 
 }  // namespace slammot::matching

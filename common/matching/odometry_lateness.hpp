@@ -33,9 +33,9 @@ std::optional<geometry::Pose2> motion_between(std::span<const TimedPose> odometr
 
 /// Lateness of odometry's stamps against those of the scans [s]: the delay at which turns and ways
 /// by odometry best fit those by pairs of scans. 0 unless the fit is significantly better than
-/// without delay. scan_times_s: of all scans. odometry: in order of time, from any source.
-/// measured: ways and turns by scans over those by odometry. The search covers delays up to 1 s.
-/// The delay is not observable at constant speed and turn rate.
+/// without delay, and turns better than no turns. scan_times_s: of all scans. odometry: in order of
+/// time, from any source. measured: ways and turns by scans over those by odometry. The search
+/// covers delays up to 1 s. The delay is not observable at constant speed and turn rate.
 double odometry_lateness_s(std::span<const ScanPairMotion> pairs,
                            std::span<const double> scan_times_s,
                            std::span<const TimedPose> odometry, const MotionScale& measured);

@@ -1,6 +1,7 @@
 #include "common/matching/odometry_lateness.hpp"
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -82,6 +83,23 @@ TEST(OdometryLateness, IsNotConcludedFromPairsThatMatchWrongly) {
   Drive drive = drive_with(0.0);
   for (std::size_t i = 0; i < drive.pairs.size(); i += 2) drive.pairs[i].turn_rad += 0.3;
   EXPECT_EQ(found_in(drive), 0.0);
+}
+
+/// A vehicle that drives straight on, with wheels that turn at random: other noise is read at each
+/// delay, so that one of them fits best by far.
+TEST(OdometryLateness, IsNotConcludedFromTurnsThatAreNoise) {
+  constexpr double kNoise_rad = 0.05;  // of each step
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
+    std::mt19937 random(seed);
+    Drive drive = drive_with(0.0);
+    double heading_rad = 0.0;
+    for (std::size_t i = 0; i < drive.odometry.size(); ++i) {
+      heading_rad += kNoise_rad * (static_cast<double>(random() % 2001) / 1000.0 - 1.0);
+      drive.odometry[i].pose = {0.3 * static_cast<double>(i), 0.0, heading_rad};
+    }
+    for (ScanPairMotion& pair : drive.pairs) pair = {pair.first_scan, pair.second_scan, 0.0, 1.2};
+    EXPECT_EQ(found_in(drive), 0.0) << "seed " << seed;
+  }
 }
 
 TEST(OdometryLateness, IsNotSeenWhereTheVehicleTurnsAndDrivesEvenly) {
