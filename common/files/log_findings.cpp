@@ -222,10 +222,6 @@ std::string describe_time(const LogPlan& plan) {
               figures.longest_gap_s);
 }
 
-bool takes_floor_for_wall(const ScannerPlan& scanner) {
-  return scanner.floor.is_in_view() && !scanner.floor.is_left_out();
-}
-
 std::string describe_profiles_of(const ScannerPlan& scanner) {
   const Eigen::Vector3d& position_m = scanner.profile_mounting->position_in_base_m;
   return scanner.name + text(
@@ -276,8 +272,7 @@ std::string describe_log(const LogPlan& plan) {
 
 std::string likely_causes(const LogPlan& plan) {
   const matching::LogEvidence& evidence = plan.evidence;
-  if (std::ranges::any_of(plan.scanners, takes_floor_for_wall))
-    return "the scanner looks down at the floor";
+  if (takes_floor_for_wall(plan)) return "the scanner looks down at the floor";
   if (plan.odometry == OdometrySource::kNone)
     return "no odometry, and scans too far apart or too much alike";
   if (evidence.pairs > 0 && evidence.matched_share < 0.5)
@@ -299,6 +294,11 @@ bool scans_show_motion(const LogPlan& plan) {
   constexpr double kFewPairs = 0.4;
   const bool sees_little = plan.figures.echo_share < kFewEchoes;
   return plan.evidence.pairs == 0 || !sees_little || plan.evidence.matched_share >= kFewPairs;
+}
+
+bool takes_floor_for_wall(const LogPlan& plan) {
+  return std::ranges::any_of(
+      plan.scanners, [](const ScannerPlan& scanner) { return scanner.floor.is_taken_for_wall(); });
 }
 
 std::vector<std::string> describe_floor(const LogPlan& plan) {

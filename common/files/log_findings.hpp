@@ -24,6 +24,9 @@ std::vector<std::string> describe_findings(const LogPlan& plan);
 /// twice.
 std::vector<std::string> describe_floor(const LogPlan& plan);
 
+/// True if a scanner looks down at the floor, and its echoes of it are in the scans.
+bool takes_floor_for_wall(const LogPlan& plan);
+
 /// Source of odometry and its evaluation by matched pairs of scans, in one line.
 std::string describe_odometry(const LogPlan& plan);
 

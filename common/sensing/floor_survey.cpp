@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include <Eigen/LU>
 
@@ -233,32 +232,28 @@ bool FloorSurvey::has_moved(const geometry::Pose2& wheel_from_base) const {
 void FloorSurvey::add(std::span<const float> readings, const geometry::Pose2& wheel_from_base,
                       bool is_another_view) {
   constexpr double kTurn_rad = 0.05;
-  if (!views_.empty() && readings.size() != beams()) return;
+  if (!views_.kept().empty() && readings.size() != beams()) return;
   if (!is_another_view && !has_moved(wheel_from_base)) return;
   const double turned_rad =
       std::abs(geometry::wrap_angle(wheel_from_base.heading_rad - last_pose_.heading_rad));
   last_pose_ = wheel_from_base;
-  if (seen_++ % every_ != 0) return;
-  views_.push_back({{readings.begin(), readings.end()}, turned_rad > kTurn_rad});
-  if (views_.size() < kMostViews) return;
-  every_ *= 2;
-  for (std::size_t i = 0; 2 * i < views_.size(); ++i) std::swap(views_[i], views_[2 * i]);
-  views_.resize((views_.size() + 1) / 2);
+  views_.add({{readings.begin(), readings.end()}, turned_rad > kTurn_rad});
 }
 
 FloorInView FloorSurvey::conclude(const SurveyedBeams& beams) const {
-  if (views_.size() < kFewestFloorViews || this->beams() < kFewestFloorBeams ||
+  const std::vector<View>& views = views_.kept();
+  if (views.size() < kFewestFloorViews || this->beams() < kFewestFloorBeams ||
       beams.beam_step_rad == 0.0)
     return {};
-  const InverseScans scans = inverse_scans_of(views_, beams);
-  const auto floor = most_worth(scans, views_, beams.laser_heading_rad);
+  const InverseScans scans = inverse_scans_of(views, beams);
+  const auto floor = most_worth(scans, views, beams.laser_heading_rad);
   if (!floor) return {};
   const Vector2& line = floor->line.inverse_per_m;
   FloorInView found{.from = nearest_echoes_of(floor->line, scans, beams.unit_m),
                     .distance_m = 1.0 / line.norm(),
                     .bearing_rad = std::atan2(line.y(), line.x()),
                     .share_of_views = floor->evidence.share_of_views()};
-  found.share_of_beams = share_of_others(views_, found.from, beams);
+  found.share_of_beams = share_of_others(views, found.from, beams);
   return found;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/geometry/pose2.hpp"
+#include "common/sensing/thinned.hpp"
 
 namespace slammot::sensing {
 
@@ -22,6 +23,7 @@ struct FloorInView {
 
   bool is_in_view() const { return distance_m > 0.0; }
   bool is_left_out() const { return !from.empty(); }
+  bool is_taken_for_wall() const { return is_in_view() && !is_left_out(); }
 
   /// Replaces its echoes, and what lies beyond, by `nothing`. Scans of another number of beams are
   /// left as they are.
@@ -49,7 +51,9 @@ class FloorSurvey {
            bool is_another_view);
 
   /// Of a scan; 0 before the first one.
-  std::size_t beams() const { return views_.empty() ? 0 : views_.front().readings.size(); }
+  std::size_t beams() const {
+    return views_.kept().empty() ? 0 : views_.kept().front().readings.size();
+  }
 
   FloorInView conclude(const SurveyedBeams& beams) const;
 
@@ -59,14 +63,10 @@ class FloorSurvey {
   };
 
  private:
-  static constexpr std::size_t kMostViews = 256;
-
   bool has_moved(const geometry::Pose2& wheel_from_base) const;
 
-  std::vector<View> views_;
+  Thinned<View> views_{256};
   geometry::Pose2 last_pose_;
-  std::size_t every_ = 1;  ///< So many views for one that is kept.
-  std::size_t seen_ = 0;
 };
 
 }  // namespace slammot::sensing

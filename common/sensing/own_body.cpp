@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "common/geometry/order_statistics.hpp"
 
@@ -68,25 +67,21 @@ bool OwnBodySurvey::add(std::span<const float> readings) {
   if (!last_view_.empty() && (readings.size() != last_view_.size() || !is_another_view(readings)))
     return false;
   last_view_.assign(readings.begin(), readings.end());
-  if (seen_++ % every_ != 0) return true;
-  views_.push_back(last_view_);
-  if (views_.size() < kMostViews) return true;
-  every_ *= 2;
-  for (std::size_t i = 0; 2 * i < views_.size(); ++i) std::swap(views_[i], views_[2 * i]);
-  views_.resize((views_.size() + 1) / 2);
+  views_.add(last_view_);
   return true;
 }
 
 OwnBody OwnBodySurvey::conclude(double unit_m) const {
-  if (views_.size() < kFewestViews) return {};
+  const std::vector<std::vector<float>>& views = views_.kept();
+  if (views.size() < kFewestViews) return {};
   const std::size_t beams = last_view_.size();
   std::vector<float> readings;
   OwnBody body{std::vector<float>(beams, 0.0F)};
   for (std::size_t beam = 0; beam < beams; ++beam) {
     readings.clear();
-    for (const std::vector<float>& view : views_)
+    for (const std::vector<float>& view : views)
       if (is_reading(view[beam])) readings.push_back(view[beam]);
-    const auto [reading, share] = usual_of(readings, views_.size(), unit_m);
+    const auto [reading, share] = usual_of(readings, views.size(), unit_m);
     if (share < kConstantShare || reading * unit_m > kFarthestPart_m) continue;
     body.reach[beam] = static_cast<float>(reading + tolerance_of(reading, unit_m));
   }

@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "common/sensing/thinned.hpp"
+
 namespace slammot::sensing {
 
 /// Parts of the vehicle in a scanner's view: a mast, a bumper, a cable.
@@ -30,14 +32,10 @@ class OwnBodySurvey {
   OwnBody conclude(double unit_m) const;
 
  private:
-  static constexpr std::size_t kMostViews = 256;
-
   bool is_another_view(std::span<const float> readings) const;
 
-  std::vector<std::vector<float>> views_;
+  Thinned<std::vector<float>> views_{256};
   std::vector<float> last_view_;
-  std::size_t every_ = 1;  ///< So many views for one that is kept.
-  std::size_t seen_ = 0;
 };
 
 }  // namespace slammot::sensing

@@ -1,6 +1,5 @@
 #include "services/slammot/job_text.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -63,11 +62,8 @@ std::string describe_faults(const files::LogFaults& faults) {
 
 /// A floor that was taken for a wall; one that is left out is told before the drive.
 std::string describe_floor_in_map(const files::LogPlan& plan) {
-  const bool is_in_map = std::ranges::any_of(plan.scanners, [](const files::ScannerPlan& scanner) {
-    return scanner.floor.is_in_view() && !scanner.floor.is_left_out();
-  });
   std::string lines;
-  if (!is_in_map) return lines;
+  if (!files::takes_floor_for_wall(plan)) return lines;
   for (const std::string& finding : files::describe_floor(plan))
     lines += "warning:  " + finding + "\n";
   return lines;

@@ -364,6 +364,21 @@ class Odometry(AlteredDrive):
         altered = alter.yaw_bias(FLASER, 0.01)
         self.assertAlmostEqual(0.01 * FLASER.times()[-1], poses(altered)[-1][2] - poses(FLASER)[-1][2], places=6)
 
+    def test_turns_are_noisy_while_the_vehicle_moves_and_ways_are_kept(self):
+        altered = motions(alter.turns_noisy(FLASER, 0.01, 1))
+        added = [after[2] - before[2] for before, after in zip(motions(FLASER), altered)]
+        expected = 0.01 * math.sqrt(FLASER.times()[-1] / len(added))
+        self.assertTrue(0.5 * expected < math.sqrt(sum(turn * turn for turn in added) / len(added)) < 2.0 * expected)
+        self.assertTrue(all(abs(before[0] - after[0]) < 1e-9 for before, after in zip(motions(FLASER), altered)))
+
+    def test_ticks_are_whole_and_no_error_grows(self):
+        altered = alter.counted(FLASER, 0.05, 1.0)
+        for ahead, _, turn in motions(altered):
+            for wheel in (ahead - 0.5 * turn, ahead + 0.5 * turn):
+                self.assertAlmostEqual(round(wheel / 0.05), wheel / 0.05, places=6)
+        driven, counted = (sum(motion[0] for motion in motions(drive)) for drive in (FLASER, altered))
+        self.assertLess(abs(counted - driven), 0.051)
+
     def test_frozen_loses_what_was_driven_meanwhile(self):
         altered = alter.frozen(FLASER, 5.0, 8.0)
         moved = [way > 1e-9 for way in (math.hypot(*motion[:2]) for motion in motions(altered))]
