@@ -51,14 +51,34 @@ export const sigmas = (share) => Math.sqrt(-2 * Math.log(1 - share));
 /** Difference of two angles, in (-pi, pi]. */
 export const turn = (from, to) => Math.atan2(Math.sin(to - from), Math.cos(to - from));
 
-/** A polyline [x0, y0, x1, y1, ...] relative to [x, y], with its ends, without points that are closer than `least` to the one kept before. */
-export function thinned(points, [x, y], least) {
-  const kept = [];
-  for (let i = 0; i < points.length; i += 2) {
-    const px = points[i] - x, py = points[i + 1] - y;
-    const isLast = i + 2 >= points.length;
-    if (!isLast && kept.length && Math.hypot(px - kept.at(-2), py - kept.at(-1)) < least) continue;
-    kept.push(px, py);
+/** Those points of a polyline [x0, y0, x1, y1, ...] from which none of the others is farther than `most`, with its ends (Douglas and Peucker 1973). */
+export function simplified(points, most) {
+  const last = points.length / 2 - 1;
+  if (last < 2) return points;
+  const isKept = new Uint8Array(last + 1);
+  isKept[0] = isKept[last] = 1;
+  const pending = [[0, last]];
+  while (pending.length) {
+    const [from, to] = pending.pop();
+    const [farthest, away] = farthestBetween(points, from, to);
+    if (away <= most) continue;
+    isKept[farthest] = 1;
+    pending.push([from, farthest], [farthest, to]);
   }
-  return kept;
+  return points.filter((_, i) => isKept[i >> 1]);
+}
+
+/** Of the points between two: [index, distance] of the one that is farthest from the line segment between them. */
+function farthestBetween(points, from, to) {
+  const x = points[2 * from], y = points[2 * from + 1];
+  const dx = points[2 * to] - x, dy = points[2 * to + 1] - y;
+  const length2 = dx * dx + dy * dy;
+  let farthest = from, most = 0;
+  for (let i = from + 1; i < to; ++i) {
+    const px = points[2 * i] - x, py = points[2 * i + 1] - y;
+    const share = length2 > 0 ? Math.min(1, Math.max(0, (px * dx + py * dy) / length2)) : 0;
+    const away = Math.hypot(px - share * dx, py - share * dy);
+    if (away > most) [farthest, most] = [i, away];
+  }
+  return [farthest, most];
 }

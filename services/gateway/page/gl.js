@@ -46,14 +46,25 @@ export class Vertices {
     this.gl = gl;
     this.buffer = gl.createBuffer();
     this.array = gl.createVertexArray();
+    this.stride = stride;
+    this.attributes = attributes;
+    this.every(1);
+  }
+
+  /** Of `count` vertices in the buffer one is drawn; the stride of a buffer, times count, is at most 255. */
+  every(count) {
+    if (this.count === count) return this;
+    const gl = this.gl;
+    this.count = count;
     gl.bindVertexArray(this.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
-    for (const [location, size, type, normalized, offset, divisor] of attributes) {
+    for (const [location, size, type, normalized, offset, divisor] of this.attributes) {
       gl.enableVertexAttribArray(location);
-      gl.vertexAttribPointer(location, size, type, normalized, stride, offset);
+      gl.vertexAttribPointer(location, size, type, normalized, this.stride * count, offset);
       gl.vertexAttribDivisor(location, divisor ?? 0);
     }
     gl.bindVertexArray(null);
+    return this;
   }
 
   fill(data, usage = this.gl.DYNAMIC_DRAW) {

@@ -153,7 +153,7 @@ function frame(now) {
   camera.update(seconds, world.vehicle);
   camera.lastMatrix = camera.matrix();
   scene.draw(camera, options, seconds);
-  labels.draw(camera, options, devicePixelRatio || 1);
+  labels.draw(camera, options);
   ++frames;
   requestAnimationFrame(frame);
 }

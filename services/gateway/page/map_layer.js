@@ -8,6 +8,7 @@ import { withToken } from "./connection.js";
 
 const LIVE_CELL_M = 0.15; // one point is kept of each
 const MOST_LIVE_POINTS = 60000;
+const MOST_LEFT_OUT = 16; // from afar one of at most so many is drawn
 const LEAST_STEP = [0.02, 0.0002]; // m and rad: smaller corrections of a pose are not shown
 const LEAST_GLIDE = [0.5, 0.01]; // m and rad: larger corrections are shown as a motion
 
@@ -137,7 +138,8 @@ export class MapLayer {
       const [x, y, heading] = live.map_from_submap;
       const place = multiply(matrix, placed([x - camera.x, y - camera.y, heading]));
       const tints = { stationary: colors.wall, moving: colors.motion, unknown: colors.wall, unlabelled: colors.wall };
-      if (opacity.so > 0) shapes.drawPoints(live.vertices, live.count, place, tints, diameter, 0, opacity.so);
+      const oneOf = Math.min(MOST_LEFT_OUT, Math.max(1, Math.floor(camera.metresPerPixel() / LIVE_CELL_M))); // from afar they overlap
+      if (opacity.so > 0) shapes.drawPoints(live.vertices.every(oneOf), Math.ceil(live.count / oneOf), place, tints, diameter, 0, opacity.so);
     }
   }
 }

@@ -1,5 +1,5 @@
 // Draws the world: ground, maps, lanes, scan, way, graph, tracks and vehicle.
-import { apply, compose, ellipse, multiply, placed, sigmas, thinned } from "./geometry.js";
+import { apply, compose, ellipse, multiply, placed, sigmas, simplified } from "./geometry.js";
 import { Vertices } from "./gl.js";
 import { Shapes } from "./shapes.js";
 import { CLASSES, THEMES } from "./theme.js";
@@ -9,7 +9,9 @@ const ELLIPSE_SIGMAS = sigmas(0.95);
 const PREDICTION_S = 1; // of the velocity's arrow
 const LANES_REACH = 4; // times the camera's distance: farther lanes are not drawn
 const LANE_LENGTH_M = 25; // of a piece, at most
-const LINE_STEP_PX = 3; // of long lines: what is closer looks the same
+const LINE_ERROR_PX = 0.5; // of long lines, at most
+const LANE_ARROW_M = 1;
+const LEAST_ARROW_PX = 4;
 const LEAST_BAND_PX = 2; // narrower than this, the line in the middle of a lane covers it
 const CONTOUR_GAP_M = 1.2; // between its points nothing was seen
 
@@ -22,6 +24,7 @@ export class Scene {
     this.map = makeMap(this.gl);
     this.shapes = new Shapes(this.gl);
     this.scanVertices = new Map(); // by scanner
+    this.simpler = new WeakMap(); // by a long line's points: {most, points}, see polyline()
     world.onScan = (points, pose) => this.map.collect(points, pose);
     world.onGraph = (graph) => this.map.take(graph);
   }
@@ -74,9 +77,13 @@ export class Scene {
     return [x - this.camera.x, y - this.camera.y, heading];
   }
 
-  /** A long line relative to the camera, as fine as it can be seen. */
+  /** A long line relative to the camera, as fine as it can be seen. The list of its points stays as it is once it was drawn. */
   polyline(points) {
-    return thinned(points, [this.camera.x, this.camera.y], LINE_STEP_PX * this.camera.metresPerPixel());
+    const most = 2 ** Math.floor(Math.log2(LINE_ERROR_PX * this.camera.metresPerPixel()));
+    let kept = this.simpler.get(points);
+    if (kept?.most !== most) this.simpler.set(points, (kept = { most, points: simplified(points, most) }));
+    const { x, y } = this.camera;
+    return kept.points.map((value, i) => value - (i % 2 ? y : x));
   }
 
   placeOf(pose) {
@@ -129,16 +136,16 @@ export class Scene {
       const width_px = width / this.camera.metresPerPixel();
       if (width_px > LEAST_BAND_PX) this.shapes.strip(own, 0.02, color, () => 0.18 * confidence * alpha, width_px * this.scale);
       this.shapes.strip(own, 0.03, color, () => (0.2 + 0.6 * confidence) * alpha, 1.3 * this.scale);
-      if (directed) this.addLaneArrow(own, color, (0.2 + 0.6 * confidence) * alpha);
+      if (directed && LANE_ARROW_M > LEAST_ARROW_PX * this.camera.metresPerPixel()) this.addLaneArrow(points, middle, color, (0.2 + 0.6 * confidence) * alpha);
     }
   }
 
-  addLaneArrow(points, color, alpha) {
-    const end = Math.max(2, 2 * Math.floor(points.length / 4));
-    const [x, y] = points.slice(end, end + 2);
-    const along = Math.atan2(y - points[end - 1], x - points[end - 2]);
+  addLaneArrow(points, middle, color, alpha) {
+    const end = Math.max(2, middle);
+    const [x, y] = this.relative([points[end], points[end + 1], 0]);
+    const along = Math.atan2(points[end + 1] - points[end - 1], points[end] - points[end - 2]);
     for (const side of [2.6, -2.6])
-      this.shapes.line([x + Math.cos(along + side), y + Math.sin(along + side)], [x, y], 0.03, color, alpha, 1.3 * this.scale);
+      this.shapes.line([x + LANE_ARROW_M * Math.cos(along + side), y + LANE_ARROW_M * Math.sin(along + side)], [x, y], 0.03, color, alpha, 1.3 * this.scale);
   }
 
   addGraph(alpha) {

@@ -74,22 +74,21 @@ void main() {
 }`;
 
 const GRID_VERTEX = `
-uniform mat4 matrix; uniform float reach; out vec2 ground;
+uniform mat4 matrix; uniform float reach; uniform vec2 target; uniform float spacing; out vec2 away; out vec2 cell;
 void main() {
-  ground = (vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0) * reach;
-  gl_Position = matrix * vec4(ground, 0.0, 1.0);
+  away = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  cell = (away * reach + target) / spacing;
+  gl_Position = matrix * vec4(away * reach, 0.0, 1.0);
 }`;
+// cell: distance from a crossing of two of the bolder lines, every tenth, in squares.
 const GRID_FRAGMENT = `
-in vec2 ground; uniform vec2 target; uniform float spacing; uniform float reach; uniform vec3 color; out vec4 result;
-float lines(float pitch) {
-  vec2 at = (ground + mod(target, pitch)) / pitch;
-  vec2 away = abs(fract(at - 0.5) - 0.5) / fwidth(at);
-  return 1.0 - min(min(away.x, away.y), 1.0);
-}
+in vec2 away; in vec2 cell; uniform vec3 color; out vec4 result;
 void main() {
-  float strength = max(lines(spacing) * 0.18, lines(spacing * 10.0) * 0.32);
-  strength *= 1.0 - smoothstep(0.3, 1.0, length(ground) / reach);
-  result = vec4(color, 1.0) * strength;
+  vec2 width = fwidth(cell);
+  vec2 fine = abs(cell - round(cell)), bold = abs(cell - 10.0 * round(0.1 * cell));
+  vec2 strength = max(0.18 * (1.0 - min(fine / width, 1.0)), 0.32 * (1.0 - min(bold / width, 1.0)));
+  float fade = 1.0 - smoothstep(0.09, 1.0, dot(away, away));
+  result = vec4(color, 1.0) * max(strength.x, strength.y) * fade;
 }`;
 
 const FAN_VERTEX = `

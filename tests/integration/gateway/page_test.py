@@ -63,8 +63,8 @@ async def test_lanes(page):
     hidden, shown, lanes = [await page.value(script) for script in (strips % 0, strips % 1, "slammot.world.lanes.length")]
     check(shown >= hidden + 2 * lanes, f"{lanes} pieces of lanes and walkways are drawn, and can be hidden")
     check(await page.value("document.querySelector('[data-layer=lanes]') !== null"), "they are a layer")
-    thinned = await page.value("import('./geometry.js').then((geometry) => geometry.thinned([0, 0, 1, 0, 2, 0, 9, 0, 9.5, 0], [1, 0], 2))")
-    check(thinned == [-1, 0, 1, 0, 8, 0, 8.5, 0], "long lines are as fine as they can be seen, with both ends")
+    simplified = await page.value("import('./geometry.js').then((geometry) => geometry.simplified([0, 0, 1, 0.1, 2, 0, 4, 3, 6, 0.1, 9, 0], 0.2))")
+    check(simplified == [0, 0, 2, 0, 4, 3, 6, 0.1, 9, 0], "long lines are as fine as they can be seen, with both ends")
 
 
 async def test_disconnection(page):
