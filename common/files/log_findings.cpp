@@ -231,6 +231,14 @@ std::string describe_profiles_of(const ScannerPlan& scanner) {
                             position_m.y(), position_m.z());
 }
 
+/// Of a bearing in base.
+std::string direction_of(double bearing_rad) {
+  const double to_the_left_deg = geometry::wrap_angle(bearing_rad) * (180.0 / std::numbers::pi);
+  if (std::abs(to_the_left_deg) < 0.5) return "straight ahead";
+  return text("%.0f degrees to the %s", std::abs(to_the_left_deg),
+              to_the_left_deg < 0.0 ? "right" : "left");
+}
+
 }  // namespace
 
 std::string describe_odometry(const LogPlan& plan) {
@@ -302,24 +310,20 @@ bool takes_floor_for_wall(const LogPlan& plan) {
 }
 
 std::vector<std::string> describe_floor(const LogPlan& plan) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   constexpr double kLittle = 0.25;
   std::vector<std::string> findings;
   for (const ScannerPlan& scanner : plan.scanners) {
     const sensing::FloorInView& floor = scanner.floor;
     if (!floor.is_in_view()) continue;
-    const double bearing_rad =
-        geometry::wrap_angle(floor.bearing_rad + scanner.base_from_laser.heading_rad);
     findings.push_back(
-        text("scanner%s looks down: beams meet the floor %.1f m away, %.0f degrees to the %s, in "
-             "%.0f %% "
-             "of the views: %s",
+        text("scanner%s looks down: beams meet the floor %.1f m away, %s, in %.0f %% of the views: "
+             "%s",
              plan.scanners.size() > 1 ? (" " + scanner.name).c_str() : "", floor.distance_m,
-             std::abs(bearing_rad) * kDegrees, bearing_rad < 0.0 ? "right" : "left",
+             direction_of(floor.bearing_rad + scanner.base_from_laser.heading_rad).c_str(),
              100.0 * floor.share_of_views,
              floor.is_left_out() ? "echoes there and beyond are left out"
-                                 : "taken for a wall, since only a log that is read twice tells it "
-                                   "before the drive"));
+                                 : "taken for a wall until it is found while driving, since only a "
+                                   "log that is read twice tells it before"));
     if (floor.share_of_beams < kLittle)
       findings.back() += text("; only %.0f %% of the beams see anything else: mount it level",
                               100.0 * floor.share_of_beams);

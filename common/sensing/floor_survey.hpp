@@ -55,6 +55,9 @@ class FloorSurvey {
     return views_.kept().empty() ? 0 : views_.kept().front().readings.size();
   }
 
+  /// That are kept; fewer than 256.
+  std::size_t views() const { return views_.kept().size(); }
+
   FloorInView conclude(const SurveyedBeams& beams) const;
 
   struct View {

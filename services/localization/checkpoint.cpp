@@ -10,7 +10,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x736c616d6d6f746b;  // "slammotk": the last letter counts the forms
+constexpr std::uint64_t kMark = 0x736c616d6d6f746c;  // "slammotl": the last letter counts the forms
                                                      // of a checkpoint
 constexpr double kFastestRestored = 1e3;  // m/s or rad/s: no vehicle was faster when the checkpoint
                                           // was made

@@ -255,6 +255,7 @@ void LocalizationService::localize(const WaitingScan& waiting) {
   tell_whereabouts(was_lost, astray_before);
   tell_of_lateness(retimed_before);
   tell_of_factors(recalibrated_before);
+  tell_of_floor(scan.scanner.scanner_id);
   if (localized) {
     localized->map_id = *drive_.map_id;
     localized->odom_id = drive_.odom_id;

@@ -99,6 +99,7 @@ class LocalizationService {
   void tell_whereabouts(bool was_lost, std::uint64_t astray_before);
   void tell_of_lateness(std::uint64_t retimed_before) const;
   void tell_of_factors(std::uint64_t recalibrated_before) const;
+  void tell_of_floor(const std::string& scanner_id) const;
   void publish_finished_submaps();
   app::CommandResult finish_submap();
 

@@ -38,4 +38,13 @@ void LocalizationService::tell_of_factors(std::uint64_t recalibrated_before) con
       factors.way, factors.turn);
 }
 
+void LocalizationService::tell_of_floor(const std::string& scanner_id) const {
+  const std::optional<sensing::FloorInView>& floor = localizer_.floor_found_now();
+  if (!floor) return;
+  app::log_warn(
+      "scanner {} looks down: beams meet the floor {:.1f} m away: echoes there and beyond are left "
+      "out from now on; mount it level",
+      scanner_id, floor->distance_m);
+}
+
 }  // namespace slammot::localization

@@ -22,7 +22,8 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
       return localize_in_order(intake_.without_readings(scan), std::move(workspace));
     case ScanIntake::Use::kLocalized: break;
   }
-  return localize_in_order(scan, std::move(workspace));
+  return localize_in_order(intake_.without_floor(scan, prediction(), counters_),
+                           std::move(workspace));
 }
 
 flow::LocalizedScan Localizer::localize_in_order(const sensing::LaserScan& scan,
@@ -127,12 +128,13 @@ std::optional<flow::LocalizedScan> Localizer::localize_again(
   if (!estimator_.leave_out(labels)) return std::nullopt;  // the same points give the same pose
   const Progress with_more_points = progress();
   return_to(*before_scan_);
-  if (!place(scan)) {
+  const sensing::LaserScan& seen = intake_.without_floor_again(scan);
+  if (!place(seen)) {
     return_to(with_more_points);
     return std::nullopt;
   }
   integration_.forget_last();
-  return describe_placed(scan, {});
+  return describe_placed(seen, {});
 }
 
 void Localizer::integrate(const flow::ScanLabels& labels) {

@@ -110,6 +110,10 @@ class Localizer final : public stages::LocalizationStage {
   std::optional<sensing::OdometryConclusions> verdict_on_odometry() const override {
     return odometry_conclusions();
   }
+  /// The floor in a scanner's view that was found with the scan that was localized last.
+  const std::optional<sensing::FloorInView>& floor_found_now() const {
+    return intake_.floor().found_now();
+  }
   const SweepFactor& sweep_factor() const { return estimator_.sweep().factor(); }
   const LocalizerCounters& counters() const { return counters_; }
   std::map<std::string, std::uint64_t> named_counters() const override { return named(counters_); }

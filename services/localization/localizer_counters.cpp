@@ -13,6 +13,7 @@ std::map<std::string, std::uint64_t> named(const LocalizerCounters& counters) {
           {"far_ahead_scans", counters.scans.far_ahead},
           {"blank_scans", counters.scans.blank},
           {"frozen_scans", counters.scans.frozen},
+          {"scans_with_floor", counters.scans.with_floor},
           {"too_few_echoes", counters.matches.too_few_echoes},
           {"lost_matches", counters.matches.lost},
           {"searches", counters.matches.searches},

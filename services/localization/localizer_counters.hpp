@@ -19,6 +19,7 @@ struct ScanCounters {
                                    ///< dropped.
   std::uint64_t blank = 0;         ///< Nothing was measured: pose predicted.
   std::uint64_t frozen = 0;        ///< Readings of the scan before, while odometry moves.
+  std::uint64_t with_floor = 0;  ///< Localized without the floor that their scanner looks down at.
 };
 
 struct MatchCounters {

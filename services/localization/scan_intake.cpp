@@ -39,6 +39,15 @@ ScanIntake::Use ScanIntake::judge(const sensing::LaserScan& scan,
   return Use::kPredicted;
 }
 
+const sensing::LaserScan& ScanIntake::without_floor(const sensing::LaserScan& scan,
+                                                    const OdometryPrediction& prediction,
+                                                    LocalizerCounters& counters) {
+  const sensing::LaserScan& seen =
+      floor_.leave_out(scan, prediction.wheel_from_base_at(scan.stamp_ns));
+  if (&seen != &scan) ++counters.scans.with_floor;
+  return seen;
+}
+
 const std::vector<std::size_t>& ScanIntake::accept(const sensing::LaserScan& scan,
                                                    const OdometryPrediction& prediction) {
   order_.accept(scan, prediction.last_stamp_ns());

@@ -5,6 +5,7 @@
 
 #include "common/sensing/scan.hpp"
 #include "services/localization/companion_echoes.hpp"
+#include "services/localization/floor_echoes.hpp"
 #include "services/localization/frozen_scanner.hpp"
 #include "services/localization/local_map.hpp"
 #include "services/localization/localizer_counters.hpp"
@@ -14,7 +15,8 @@
 namespace slammot::localization {
 
 /// Judges each scan before it is localized: whether it comes in its order, whether the scanner
-/// measured anything, and which of its echoes are of what goes along with the vehicle.
+/// measured anything, and which of its echoes are of the floor or of what goes along with the
+/// vehicle.
 class ScanIntake {
  public:
   enum class Use {
@@ -37,6 +39,19 @@ class ScanIntake {
     return frozen_.without_readings(scan);
   }
 
+  /// The scan without the floor that its scanner looks down at, for Use::kLocalized. To be asked
+  /// once of each; valid until the next call.
+  const sensing::LaserScan& without_floor(const sensing::LaserScan& scan,
+                                          const OdometryPrediction& prediction,
+                                          LocalizerCounters& counters);
+
+  /// The same of a scan that was asked for before.
+  const sensing::LaserScan& without_floor_again(const sensing::LaserScan& scan) {
+    return floor_.without_floor(scan);
+  }
+
+  const FloorEchoes& floor() const { return floor_; }
+
   /// A scan that is localized or without readings: later ones come after it. Beams that end on what
   /// goes along with the vehicle, ascending; valid until the next call.
   const std::vector<std::size_t>& accept(const sensing::LaserScan& scan,
@@ -51,6 +66,7 @@ class ScanIntake {
 
   ScanOrder order_;
   FrozenScanner frozen_;
+  FloorEchoes floor_;
   CompanionEchoes companions_;
 };
 

@@ -43,6 +43,11 @@ std::string describe_left_out(const files::RunRecord& record, const files::RunRe
         "warning:  %llu scans repeat the readings of the one before while odometry moves (the "
         "scanner hangs): not used\n",
         frozen);
+  if (const auto with_floor = count_of("scans_with_floor"); with_floor > 0)
+    lines += text(
+        "warning:  %llu scans localized without the floor that the scanner looks down at: it was "
+        "found while driving\n",
+        with_floor);
   if (const auto blank = count_of("blank_scans"); blank > 0)
     lines += text(
         "warning:  %llu scans have no valid reading (NaN), or hardly an echo where the map expects "

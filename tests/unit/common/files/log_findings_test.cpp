@@ -65,6 +65,8 @@ TEST(DescribeFindings, SaysThatAScannerLooksDownAndWhetherItSeesLittleElse) {
                           "right, in 80 % of the views: echoes there and beyond are left out"));
   plan.scanners.front().floor.share_of_beams = 0.1;
   EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("only 10 % of the beams")));
+  plan.scanners.front().floor.bearing_rad = 0.002;
+  EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("6.7 m away, straight ahead, in")));
   plan.recorded_odometry = plan.odometry;
   plan = as_live(plan);
   EXPECT_THAT(describe_findings(plan), ElementsAre(HasSubstr("taken for a wall")));
