@@ -37,10 +37,11 @@ struct ServiceDescription {
   std::vector<config::BoundStage> stages;
   std::function<void(CLI::App&)> add_options;
   std::function<std::shared_ptr<void>(ServiceContext&)> make;
-  std::function<void(ServiceContext&)> prepare;  ///< Of a standby; may be empty.
-  bool is_one_per_vehicle = false;               ///< A second process of it stands by.
-  bool keeps_state = false;                      ///< In the state directory, which is locked.
-  bool gives_way = false;                        ///< To the services on the way of a scan.
+  std::function<void(ServiceContext&)> prepare;   ///< Before it leads; may be empty.
+  std::function<void(ServiceContext&)> rehearse;  ///< Of a standby; may be empty.
+  bool is_one_per_vehicle = false;                ///< A second process of it stands by.
+  bool keeps_state = false;                       ///< In the state directory, which is locked.
+  bool gives_way = false;                         ///< To the services on the way of a scan.
 };
 
 /// Runs a service: command line, configuration, log, signals, bus, loop, exit.
@@ -51,6 +52,10 @@ concept IsOnePerVehicle = Service::kIsOnePerVehicle;
 template <typename Service>
 concept PreparesInputs = requires(ServiceContext& context) {
   Service::prepare(context);
+};
+template <typename Service>
+concept Rehearses = requires(ServiceContext& context, const typename Service::Settings& settings) {
+  Service::rehearse(context, settings);
 };
 template <typename Service>
 concept KeepsState = Service::kKeepsState;
@@ -66,7 +71,9 @@ concept GivesWay = Service::kGivesWay;
 ///                                        which says what it reads, writes and does periodically,
 /// and, where it is true, static constexpr bool kIsOnePerVehicle, kKeepsState, kGivesWay, and for a
 /// standby
-///   static void prepare(ServiceContext&)  the topics that it needs the history of.
+///   static void prepare(ServiceContext&)  the topics that it needs the history of,
+///   static void rehearse(ServiceContext&, const Settings&)
+///                                        what makes its takeover faster, once it stands by.
 template <typename Service>
 int run_service(int argc, char** argv) {
   typename Service::Settings settings;
@@ -77,10 +84,13 @@ int run_service(int argc, char** argv) {
       .add_options = [&](CLI::App& command_line) { Service::add_options(command_line, settings); },
       .make = [&](ServiceContext& context) { return std::make_shared<Service>(context, settings); },
       .prepare = {},
+      .rehearse = {},
       .is_one_per_vehicle = IsOnePerVehicle<Service>,
       .keeps_state = KeepsState<Service>,
       .gives_way = GivesWay<Service>};
   if constexpr (PreparesInputs<Service>) description.prepare = Service::prepare;
+  if constexpr (Rehearses<Service>)
+    description.rehearse = [&](ServiceContext& context) { Service::rehearse(context, settings); };
   return run_service(argc, argv, description);
 }
 

@@ -1,5 +1,7 @@
 #include "common/app/standby.hpp"
 
+#include <utility>
+
 #include <signal.h>
 #include <unistd.h>
 
@@ -30,8 +32,14 @@ Standby::Standby(ServiceContext& context, StateLock* lock)
   });
 }
 
-bool Standby::wait_until_it_leads() {
-  if (!context_.run_until([this] { return try_to_lead(); })) return false;
+bool Standby::wait_until_it_leads(const std::function<void()>& rehearse) {
+  bool has_rehearsed = false;
+  const auto leads = [&] {
+    if (try_to_lead()) return true;
+    if (stood_by_ && !std::exchange(has_rehearsed, true)) rehearse();
+    return false;
+  };
+  if (!context_.run_until(leads)) return false;
   context_.status().clear_trouble(kTrouble);
   context_.status().set_starting(false);
   if (stood_by_) log_warn("takes over");

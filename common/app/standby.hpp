@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "common/app/leadership.hpp"
 #include "common/app/service_context.hpp"
@@ -24,9 +26,10 @@ class Standby {
   Standby(const Standby&) = delete;
   Standby& operator=(const Standby&) = delete;
 
-  /// Waits until this process leads; false if it was stopped before. Afterwards the process is
-  /// stopped with kExitInUse when another one prevails.
-  bool wait_until_it_leads();
+  /// Waits until this process leads; false if it was stopped before. rehearse() is called once,
+  /// when it stands by. Afterwards the process is stopped with kExitInUse when another one
+  /// prevails.
+  bool wait_until_it_leads(const std::function<void()>& rehearse);
 
  private:
   bool try_to_lead();

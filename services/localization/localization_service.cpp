@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 
 #include "common/app/log.hpp"
@@ -89,6 +91,16 @@ void LocalizationService::prepare(app::ServiceContext& context) {
   context.prepare(dds::topics::kOdometry, dds::History::kRestart);
   context.prepare(dds::topics::kLaserScan, dds::History::kRestart);
   context.prepare_to_write(dds::topics::kLocalizedScan);
+}
+
+void LocalizationService::rehearse(app::ServiceContext& context, const Settings& settings) {
+  constexpr int kKept_bytes = 1 << 28;
+  constexpr int kLargestOfHeap_bytes = 1 << 25;  // what is larger is given back when it is freed
+  ::mallopt(M_TRIM_THRESHOLD, kKept_bytes);
+  ::mallopt(M_MMAP_THRESHOLD, kLargestOfHeap_bytes);
+  Localizer localizer(config_of(settings));
+  if (const auto saved = SessionFile(checkpoint_path(context.options())).read())
+    localizer.restore(saved->session.localizer);
 }
 
 LocalizationService::~LocalizationService() {

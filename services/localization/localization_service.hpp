@@ -44,6 +44,9 @@ class LocalizationService {
   static void add_options(CLI::App& command_line, Settings& settings);
 
   static void prepare(app::ServiceContext& context);
+  /// Restores the checkpoint of the leader once, for nothing: the memory of a map, some 60 MB, is
+  /// this process's own when it takes over.
+  static void rehearse(app::ServiceContext& context, const Settings& settings);
 
   LocalizationService(app::ServiceContext& context, const Settings& settings);
   /// Leaves a checkpoint of the newest scan: a standby has nothing to localize again.

@@ -51,12 +51,13 @@ class Timeline:
         return bool(beats) and beats[-1][2] == "0" and beats[-1][3] != "0"
 
     def overlapping_leaders(self, service):
-        """Pairs of processes that led at the same time by their heartbeats: from the first as leader to the last."""
+        """Pairs of processes that led at the same time by their heartbeats: from the first as leader to the last. In a long run the number of a
+        process comes again, in another term."""
         spans = {}
         for received_ns, _, (name, process, stands_by, term) in list(self.lines["beat"]):
             if name == service and stands_by == "0" and term != "0":
-                first_ns, _ = spans.get(process, (received_ns, received_ns))
-                spans[process] = (first_ns, received_ns)
+                first_ns, _ = spans.get((process, term), (received_ns, received_ns))
+                spans[process, term] = (first_ns, received_ns)
         ordered = sorted(spans.values())
         return sum(later[0] < earlier[1] for earlier, later in zip(ordered, ordered[1:]))
 

@@ -28,7 +28,7 @@ class Process {
       : lock_(lock_file), context_("localization", options(bus, instance)) {
     thread_ = std::thread([this] {
       Standby standby(context_, &lock_);
-      if (!standby.wait_until_it_leads()) return;
+      if (!standby.wait_until_it_leads([this] { ++rehearsals_; })) return;
       leads_ = true;
       most_leading = std::max<int>(most_leading, ++leading);
       context_.run([this] {
@@ -44,6 +44,7 @@ class Process {
     if (thread_.joinable()) thread_.join();
   }
   bool leads() const { return leads_; }
+  int rehearsals() const { return rehearsals_; }
 
   static inline std::atomic<int> leading = 0;  ///< Of all.
   static inline std::atomic<int> most_leading = 0;
@@ -62,6 +63,7 @@ class Process {
   StateLock lock_;
   ServiceContext context_;
   std::atomic<bool> leads_ = false;
+  std::atomic<int> rehearsals_ = 0;
   std::thread thread_;
 };
 
@@ -100,6 +102,8 @@ TEST_F(StandbyOnTheBus, WaitsWhileAnotherOneLeadsAndTakesOverWhenItStops) {
   EXPECT_FALSE(second.leads());
   first.stop();
   EXPECT_TRUE(comes_to([&] { return second.leads(); }));
+  EXPECT_EQ(first.rehearsals(), 0) << "it never stood by";
+  EXPECT_EQ(second.rehearsals(), 1);
 }
 
 TEST_F(StandbyOnTheBus, WaitsForStateThatASilentProcessHolds) {
