@@ -1,11 +1,18 @@
 #include "services/localization/floor_echoes.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace slammot::localization {
 namespace {
 
 constexpr float kTellsNoFloor_m = 1e-3F;  // nearer than the least range of any scanner
+
+/// A wall along the way stays there, too, until the vehicle has turned often enough.
+bool lies_beside(const sensing::FloorInView& floor, const sensing::LaserScan& scan) {
+  constexpr double kBeside = 0.8;  // sine
+  return std::abs(std::sin(floor.bearing_rad + scan.scanner.base_from_laser.heading_rad)) > kBeside;
+}
 
 }  // namespace
 
@@ -34,6 +41,7 @@ void FloorEchoes::look(Scanner& scanner, const sensing::LaserScan& scan) {
                                .laser_heading_rad = scan.scanner.base_from_laser.heading_rad,
                                .unit_m = 1.0,
                                .no_echo_m = scan.scanner.max_range_m});
+  if (lies_beside(scanner.floor, scan)) scanner.floor = {};
   if (scanner.floor.is_in_view()) {
     found_now_ = scanner.floor;
     scanner.looks = kLooks.size();

@@ -12,8 +12,8 @@
 namespace slammot::localization {
 
 /// Leaves out the echoes of the floor of a scanner that looks down (sensing::FloorSurvey), for each
-/// scanner by itself, from the scan on at which the views so far tell it. Of a log it was left out
-/// before: nothing is found.
+/// scanner by itself, from the scan on at which the views so far tell it. A floor beside the
+/// vehicle is not told from a wall so early. Of a log it was left out before: nothing is found.
 class FloorEchoes {
  public:
   /// To be called once for each scan, in their order. wheel_from_base: odometry at the scan;

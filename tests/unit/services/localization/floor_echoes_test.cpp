@@ -69,6 +69,12 @@ TEST(FloorEchoes, AreThoseOfTheirScanner) {
   EXPECT_EQ(&echoes.leave_out(scan, rear.pose()), &scan) << "the scan itself";
 }
 
+TEST(FloorEchoes, AreNotThoseOfALineBesideTheVehicle) {
+  FloorEchoes echoes;
+  ScannedHall hall("front", {.floor = {0.05, 0.25}});
+  EXPECT_FALSE(scans_to_find(echoes, hall, true).has_value());
+}
+
 TEST(FloorEchoes, AreNotFoundWithoutOdometry) {
   FloorEchoes echoes;
   ScannedHall hall("front", {.floor = {0.2, 0.0}});
