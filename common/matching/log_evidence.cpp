@@ -1,9 +1,10 @@
 #include "common/matching/log_evidence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "common/matching/odometry_point.hpp"
@@ -73,22 +74,35 @@ std::vector<std::vector<float>> first_scans_m(std::span<const ScanPair> pairs, d
   return scans_m;
 }
 
-/// How much walls bend with this layout; infinite if few walls are seen.
-double bend_with(std::span<const std::vector<float>> scans_m, const AssumedBeams& beams) {
+/// How much walls bend with this layout; none if few walls are seen.
+std::optional<WallBend> bend_with(std::span<const std::vector<float>> scans_m,
+                                  const AssumedBeams& beams) {
   constexpr std::size_t kFewestWalls = 20;
   const WallBend found = wall_bend(scans_m, beams.first_beam_rad, beams.beam_step_rad);
-  return found.windows < kFewestWalls ? std::numeric_limits<double>::infinity()
-                                      : std::abs(found.bend);
+  return found.windows < kFewestWalls ? std::nullopt : std::optional(found);
+}
+
+/// Fields of view of existing scanners.
+constexpr std::array kUsualFields_deg{90.0, 100.0, 120.0, 180.0, 190.0, 240.0, 270.0, 360.0};
+
+/// Whether so many beams may lie in this field of view. Those of 100 and 190 degrees lie near
+/// another one, and belong to scanners whose beams are a whole share of a degree apart.
+bool may_span(double degrees, std::size_t beams) {
+  if (degrees != 100.0 && degrees != 190.0) return true;
+  const double beams_per_degree = static_cast<double>(beams - 1) / degrees;
+  return beams_per_degree >= 1.0 && beams_per_degree == std::round(beams_per_degree);
 }
 
 /// A wrong field of view scales the turns by scans, and bends walls. The turns raise the question,
 /// and walls answer it: odometry's turns may err, too, and two scans that differ by a rotation
-/// match with any field of view. An accepted factor must give a field of view of existing scanners.
+/// match with any field of view. Where walls are straight as stated, or too few to tell, the stated
+/// field is kept. An accepted factor must give a field of view of existing scanners.
 double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams,
                     const LogCorrection& correction, const std::vector<MatchedPair>& as_stated) {
   constexpr double kTurnsAgree = 0.87;
   constexpr double kStraighter = 0.5;
-  constexpr double kSameField = 0.02;  // 361 beams of half a degree are 180 degrees
+  constexpr double kBent_sigmas = 5.0;  // straight walls of seven logs: up to 1.7
+  constexpr double kSameField = 0.02;   // 361 beams of half a degree are 180 degrees
   const double scale = std::abs(turn_scale(turning(as_stated)));
   if (pairs.empty() || !(scale > 0.0) || (scale > kTurnsAgree && scale < 1.0 / kTurnsAgree))
     return 1.0;
@@ -96,14 +110,17 @@ double field_factor(std::span<const ScanPair> pairs, const AssumedBeams& beams,
       std::abs(beams.beam_step_rad) * static_cast<double>(pairs.front().first.size());
   double best = 1.0;
   const auto scans_m = first_scans_m(pairs, correction.range_unit_m);
-  double least_bend = kStraighter * bend_with(scans_m, beams);
-  for (const double degrees : {90.0, 120.0, 180.0, 240.0, 270.0, 360.0}) {
+  const std::optional<WallBend> stated = bend_with(scans_m, beams);
+  if (!stated || std::abs(stated->bend) < kBent_sigmas * stated->sigma) return 1.0;
+  double least_bend = kStraighter * std::abs(stated->bend);
+  for (const double degrees : kUsualFields_deg) {
     const double factor = degrees / 180.0 * pi / stated_rad;
-    if (std::abs(factor - 1.0) < kSameField) continue;
-    const double bend = bend_with(scans_m, with_field(beams, factor));
-    if (bend >= least_bend) continue;
+    if (std::abs(factor - 1.0) < kSameField || !may_span(degrees, pairs.front().first.size()))
+      continue;
+    const std::optional<WallBend> found = bend_with(scans_m, with_field(beams, factor));
+    if (!found || std::abs(found->bend) >= least_bend) continue;
     best = factor;
-    least_bend = bend;
+    least_bend = std::abs(found->bend);
   }
   return best;
 }

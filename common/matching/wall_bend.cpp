@@ -63,6 +63,17 @@ void add_bends(const std::vector<float>& ranges_m, double first_beam_rad, double
   }
 }
 
+WallBend median_of(std::vector<double>& bends) {
+  constexpr double kSigmaOfMedian = 1.4826 * 1.2533;  // of a normal distribution, times sqrt(n)
+  WallBend found{
+      .bend = geometry::upper_median_in_place(bends), .sigma = 0.0, .windows = bends.size()};
+  for (double& bend : bends) bend = std::abs(bend - found.bend);
+  if (!bends.empty())
+    found.sigma = kSigmaOfMedian * geometry::upper_median_in_place(bends) /
+                  std::sqrt(static_cast<double>(bends.size()));
+  return found;
+}
+
 }  // namespace
 
 WallBend wall_bend(std::span<const std::vector<float>> scans, double first_beam_rad,
@@ -70,7 +81,7 @@ WallBend wall_bend(std::span<const std::vector<float>> scans, double first_beam_
   std::vector<double> bends;
   for (const std::vector<float>& ranges_m : scans)
     add_bends(ranges_m, first_beam_rad, step_rad, bends);
-  return {geometry::upper_median_in_place(bends), bends.size()};
+  return median_of(bends);
 }
 
 }  // namespace slammot::matching

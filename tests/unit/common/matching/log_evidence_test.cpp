@@ -38,11 +38,11 @@ double range_m(double x_m, double y_m, double direction_rad) {
   return 40.0;
 }
 
-std::vector<float> scan_at(const Pose2& pose, double field_rad) {
+std::vector<float> scan_at(const Pose2& pose, double field_rad, std::size_t beams = kBeams) {
   std::vector<float> ranges;
-  for (std::size_t i = 0; i < kBeams; ++i) {
+  for (std::size_t i = 0; i < beams; ++i) {
     const double angle =
-        -0.5 * field_rad + field_rad * static_cast<double>(i) / static_cast<double>(kBeams - 1);
+        -0.5 * field_rad + field_rad * static_cast<double>(i) / static_cast<double>(beams - 1);
     ranges.push_back(static_cast<float>(range_m(pose.x_m, pose.y_m, pose.heading_rad + angle)));
   }
   return ranges;
@@ -66,6 +66,7 @@ struct Recording {
   double looks_rad = 0.0;
   double range_unit_m = 1.0;
   double ahead_m = 0.0;  // of the base is the laser, as is said
+  std::size_t beams = kBeams;
 };
 
 /// Evidence of the drive, recorded in some way, where a half circle is assumed.
@@ -75,8 +76,8 @@ LogEvidence evidence_of(const Recording& recording) {
   std::optional<ScanPair> before;
   for (const Pose2& pose : drive()) {
     ScanPair now;
-    now.first =
-        scan_at(pose * Pose2{recording.ahead_m, 0.0, recording.looks_rad}, recording.field_rad);
+    now.first = scan_at(pose * Pose2{recording.ahead_m, 0.0, recording.looks_rad},
+                        recording.field_rad, recording.beams);
     recording.scan(now.first);
     now.first_recorded = recording.pose(pose);
     check.add(now.first_recorded);
@@ -84,9 +85,10 @@ LogEvidence evidence_of(const Recording& recording) {
       pairs.push_back({before->first, now.first, before->first_recorded, now.first_recorded});
     before = now;
   }
-  return weigh_log(pairs,
-                   {-0.5 * pi, pi / static_cast<double>(kBeams - 1), 0.0, {recording.ahead_m, 0.0}},
-                   check, recording.range_unit_m);
+  return weigh_log(
+      pairs,
+      {-0.5 * pi, pi / static_cast<double>(recording.beams - 1), 0.0, {recording.ahead_m, 0.0}},
+      check, recording.range_unit_m);
 }
 
 TEST(WeighLog, CorrectsNothingOfASoundLog) {
@@ -344,6 +346,23 @@ TEST(WeighLog, FindsTheFieldOfViewByWallsWhereOdometryTurnsTooMuchOrTooLittle) {
         << factor;
     EXPECT_EQ(evidence_of({.pose = turns_more}).correction.field_factor, 1.0) << factor;
   }
+}
+
+TEST(WeighLog, KeepsTheFieldOfViewWhereTooFewWallsTell) {
+  const auto sees_near = [](std::vector<float>& ranges) {  // of each wall a few beams
+    for (std::size_t i = 0; i < ranges.size(); ++i)
+      if (i % 16 > 12) ranges[i] = 0.0F;
+  };
+  EXPECT_EQ(evidence_of({.pose = turned_more(1.3), .scan = sees_near}).correction.field_factor,
+            1.0);
+}
+
+TEST(WeighLog, FindsTheFieldOfAScannerOf100DegreesByWallsAndBeams) {
+  const LogCorrection correction =
+      evidence_of({.pose = turned_more(1.05), .field_rad = pi * 100.0 / 180.0, .beams = 101})
+          .correction;
+  EXPECT_NEAR(correction.field_factor, 100.0 / 180.0, 0.01);
+  EXPECT_NEAR(evidence_of({.field_rad = 0.5 * pi, .beams = 91}).correction.field_factor, 0.5, 0.01);
 }
 
 TEST(WeighLog, KeepsAFieldOfViewThatIsOneBeamWiderThanAUsualOne) {

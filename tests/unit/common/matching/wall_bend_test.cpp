@@ -53,6 +53,13 @@ TEST(WallBend, HasOneSignForBeamsTooNarrowAndTheOtherForBeamsTooWide) {
   EXPECT_LT(bend_of_field(225.0).bend, -0.001);
 }
 
+TEST(WallBend, OfTheRightFieldIsWithinItsSigmas) {
+  const WallBend right = bend_of_field(180.0);
+  EXPECT_LT(std::abs(right.bend), 3.0 * right.sigma);
+  const WallBend wide = bend_of_field(240.0);
+  EXPECT_GT(std::abs(wide.bend), 5.0 * wide.sigma);
+}
+
 TEST(WallBend, MeasuresNothingWithoutWalls) {
   const std::vector<std::vector<float>> blind(
       5, std::vector<float>(kBeams, std::numeric_limits<float>::quiet_NaN()));
