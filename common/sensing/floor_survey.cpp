@@ -76,6 +76,8 @@ struct LineEvidence {
   std::size_t beyond = 0;
   std::array<std::size_t, 2> views{};    ///< On straights and in turns.
   std::array<std::size_t, 2> with_it{};  ///< Of these, with the line.
+  std::size_t on_in_turns = 0;           ///< Echoes,
+  std::size_t past_in_turns = 0;         ///< and those that are farther than sway explains.
 
   std::size_t all_with_it() const { return with_it[0] + with_it[1]; }
   double share_of_views() const {
@@ -85,7 +87,8 @@ struct LineEvidence {
 
 struct EchoesByLine {
   std::size_t on = 0;
-  std::size_t beyond = 0;
+  std::size_t past = 0;    ///< Farther than sway explains.
+  std::size_t beyond = 0;  ///< Of these, clearly.
 };
 
 EchoesByLine echoes_by_line(const RepeatedLine& floor, const InverseScans& scans,
@@ -99,6 +102,7 @@ EchoesByLine echoes_by_line(const RepeatedLine& floor, const InverseScans& scans
     const double tolerance = tolerance_per_m(floor, floor_per_m);
     const double nearer_per_m = per_m[beam] - floor_per_m;
     echoes.on += std::abs(nearer_per_m) < tolerance ? 1 : 0;
+    echoes.past += nearer_per_m <= -tolerance ? 1 : 0;
     echoes.beyond +=
         nearer_per_m < -std::max(tolerance, kBeyond * floor.inverse_distance_per_m()) ? 1 : 0;
   }
@@ -115,7 +119,11 @@ LineEvidence evidence_of(const RepeatedLine& floor, const InverseScans& scans,
     evidence.on += echoes.on;
     evidence.beyond += echoes.beyond;
     ++evidence.views[way];
-    if (echoes.on >= fewest_on) ++evidence.with_it[way];
+    if (echoes.on < fewest_on) continue;
+    ++evidence.with_it[way];
+    if (!views[i].is_in_turn) continue;
+    evidence.on_in_turns += echoes.on;
+    evidence.past_in_turns += echoes.past;
   }
   return evidence;
 }
@@ -150,10 +158,18 @@ bool is_met_often(const LineEvidence& evidence) {
          evidence.share_of_views() >= kLeastShare;
 }
 
-/// Walls have openings and ends: of the lines of the recorded logs at least a fifth of the echoes
-/// lies beyond.
+/// Of the echoes on a floor and beyond. Walls have openings and ends: of the lines of the recorded
+/// logs at least a fifth of the echoes lies beyond.
+constexpr double kMostBeyond = 0.03;
+
+/// In turns a wall comes nearer on one side and goes farther away on the other; the floor turns
+/// with the vehicle.
+bool is_aslant_in_turns(const LineEvidence& evidence) {
+  return static_cast<double>(evidence.past_in_turns) >
+         kMostBeyond * static_cast<double>(evidence.on_in_turns + evidence.past_in_turns);
+}
+
 bool is_last(const LineEvidence& evidence) {
-  constexpr double kMostBeyond = 0.03;
   return static_cast<double>(evidence.beyond) <=
          kMostBeyond * static_cast<double>(evidence.on + evidence.beyond);
 }
@@ -172,7 +188,7 @@ std::optional<Floor> floor_near(const RepeatedLine& mode, const InverseScans& sc
   if (mode.spread > kMostSpread || !is_seen_often(mode, views.size())) return std::nullopt;
   const RepeatedLine line = fitted(mode, scans);
   const LineEvidence evidence = evidence_of(line, scans, views);
-  if (!is_met_often(evidence) || !is_last(evidence) ||
+  if (!is_met_often(evidence) || !is_last(evidence) || is_aslant_in_turns(evidence) ||
       may_be_a_wall(line, evidence, laser_heading_rad))
     return std::nullopt;
   return Floor{line, evidence};

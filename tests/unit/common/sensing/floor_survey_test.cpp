@@ -60,6 +60,28 @@ TEST(FloorSurvey, DoesNotTakeAWallBesideTheVehicleForTheFloor) {
   EXPECT_FALSE(survey.conclude(kHalfCircle).is_in_view());
 }
 
+/// Twice around a hall, in curves of 3 m: along its short walls, then along its long ones, which
+/// are nearer.
+std::vector<Pose2> poses_around_a_hall() {
+  std::vector<Pose2> poses{{-8.0, -7.0, 0.0}};
+  const auto go = [&](int steps, double turn_rad) {
+    for (int i = 0; i < steps; ++i) poses.push_back(poses.back() * Pose2{0.3, 0.0, turn_rad});
+  };
+  const auto curve = [&] { go(15, 0.5 * std::numbers::pi / 15); };
+  for (int side = 0; side < 8; ++side) {
+    go(side % 2 == 0 ? 53 : 26, 0.0);
+    curve();
+  }
+  return poses;
+}
+
+TEST(FloorSurvey, DoesNotTakeAWallForTheFloorThatIsAslantInTurns) {
+  TiltedScanner scanner({.hall_m = {18.0, 12.0}});
+  FloorSurvey survey;
+  for (const Pose2& pose : poses_around_a_hall()) survey.add(scanner.scan(pose), pose, false);
+  EXPECT_FALSE(survey.conclude(kHalfCircle).is_in_view());
+}
+
 TEST(FloorSurvey, DoesNotTakeAWallBeforeAVehicleThatStandsForTheFloor) {
   TiltedScanner scanner({});
   FloorSurvey survey;
