@@ -188,8 +188,8 @@ void describe_doubts(const LogPlan& plan, std::vector<std::string>& findings) {
     findings.emplace_back("there is no odometry: scans alone say how the vehicle moves");
   if (evidence.pairs > 0 && evidence.matched_share < kMostlyMatched)
     findings.push_back(
-        text("only %.0f %% of the sampled pairs of scans match each other: range unit or field of "
-             "view may be wrong",
+        text("only %.0f %% of the sampled pairs of scans match each other: few walls are in view "
+             "(trees, open ground), or range unit or field of view is wrong",
              100.0 * evidence.matched_share));
   if (!scans_show_motion(plan))
     findings.emplace_back("scans see too little to judge odometry: it is believed");
