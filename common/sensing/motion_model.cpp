@@ -167,8 +167,9 @@ geometry::UncertainPose2 predict_step(const Pose2& before_from_base_by_wheels, d
 
 MotionEstimate moved_by_wheels(const MotionEstimate& before, const WheelStep& by_wheels,
                                const MotionModelConfig& config) {
-  const geometry::UncertainPose2 step =
+  geometry::UncertainPose2 step =
       predict_step(by_wheels.before_from_base, by_wheels.duration_s, before.calibration, config);
+  step.covariance(2, 2) += by_wheels.turn_variance_rad2;
   MotionEstimate after = moved(before, step);
   const ByCalibration by_calibration = geometry::compound_jacobian_second(before.odom_from_base) *
                                        step_by_calibration(by_wheels, before.calibration);

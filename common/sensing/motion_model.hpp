@@ -58,6 +58,7 @@ struct WheelStep {
   Eigen::Vector3d by_stamp_offset = Eigen::Vector3d::Zero();  ///< Derivative by the lateness;
                                                               ///< nonzero only if the velocity
                                                               ///< changes.
+  double turn_variance_rad2 = 0.0;  ///< Of the turn, beyond what the motion model has.
 };
 
 /// Joint Gaussian of the pose, odometry's calibration and, without odometry, the velocity. They

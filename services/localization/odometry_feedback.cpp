@@ -41,6 +41,7 @@ void OdometryPrediction::observe(const Step& step, const ScanMatch& match) {
   state_.estimate =
       match.is_believed ? sensing::matched(step.after, match.odom_from_base) : step.after;
   if (step.duration_s > 0.0) learn_wheels(step, match);
+  learn_turn_noise(step, match);
   learn_stamp_offset(step, match);
   learn_pivot(step, match);
   doubt_calibration(step, match);
@@ -197,7 +198,8 @@ void OdometryPrediction::learn_stamp_offset(const Step& step, const ScanMatch& m
   watched =
       by_wheels
           ? beside(watched,
-                   {*by_wheels, step.duration_s, step_by_stamp_offset(step.stamp_ns, offset_s)},
+                   {*by_wheels, step.duration_s, step_by_stamp_offset(step.stamp_ns, offset_s),
+                    step.wheels.turn_variance_rad2},
                    config_.motion, step, match)
           : sensing::put_at(watched, state_.estimate.uncertain_pose());
   if (!by_wheels || std::abs(stamp_offset_s()) < kCertainSigmas * stamp_offset_sigma_s()) return;
@@ -214,9 +216,11 @@ void OdometryPrediction::learn_pivot(const Step& step, const ScanMatch& match) {
   const double offset_s = state_.applies_stamp_offset ? stamp_offset_s() : 0.0;
   const auto by_wheels =
       tells_of_calibration(step, match) ? wheel_step(step.stamp_ns, to_ns(offset_s)) : std::nullopt;
-  watched = by_wheels
-                ? beside(watched, {*by_wheels, step.duration_s}, motion_of_one_clock_, step, match)
-                : sensing::put_at(watched, state_.estimate.uncertain_pose());
+  watched = by_wheels ? beside(watched,
+                               {*by_wheels, step.duration_s, Eigen::Vector3d::Zero(),
+                                step.wheels.turn_variance_rad2},
+                               motion_of_one_clock_, step, match)
+                      : sensing::put_at(watched, state_.estimate.uncertain_pose());
   if (!by_wheels || !sensing::is_pivot_certain(watched)) return;
   state_.estimate = sensing::with_pivot_of(state_.estimate, watched);
   state_.with_stamp_offset = sensing::with_pivot_of(state_.with_stamp_offset, watched);

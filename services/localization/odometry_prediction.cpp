@@ -147,12 +147,15 @@ sensing::MotionEstimate OdometryPrediction::moved_by_wheels(const Pose2& by_whee
                                                             std::int64_t stamp_ns,
                                                             double duration_s) const {
   const sensing::MotionEstimate& before = state_.estimate;
-  if (!state_.applies_stamp_offset)
-    return sensing::moved_by_wheels(before, {by_wheels, duration_s}, motion_of_one_clock_);
+  const sensing::WheelStep likely = turned_as_likely(
+      {.before_from_base = by_wheels,
+       .duration_s = duration_s,
+       .by_stamp_offset = state_.applies_stamp_offset
+                              ? step_by_stamp_offset(stamp_ns, sensing::stamp_offset_s(before))
+                              : Eigen::Vector3d::Zero(),
+       .turn_variance_rad2 = turn_variance_rad2(duration_s)});
   return sensing::moved_by_wheels(
-      before,
-      {by_wheels, duration_s, step_by_stamp_offset(stamp_ns, sensing::stamp_offset_s(before))},
-      config_.motion);
+      before, likely, state_.applies_stamp_offset ? config_.motion : motion_of_one_clock_);
 }
 
 /// Either the wheels have jumped or the vehicle was stopped or pushed: the match decides.
@@ -208,6 +211,7 @@ Step OdometryPrediction::predict(std::int64_t stamp_ns, double sweep_s) const {
   step.odom_from_base_before = state_.estimate.uncertain_pose();
   step.last_was_sampled = state_.last->was_sampled;
   step.usual_duration_s = state_.belief.usual_step_s;
+  step.wheels.turn_variance_rad2 = turn_variance_rad2(step.duration_s);
   std::optional<Pose2> by_wheels = step_by_wheels(step);
   if (by_wheels) {
     step.wheels.uncorrected = *by_wheels;

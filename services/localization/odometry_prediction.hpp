@@ -13,6 +13,7 @@
 #include "common/sensing/odometry_belief.hpp"
 #include "common/sensing/odometry_buffer.hpp"
 #include "common/sensing/stamp_guard.hpp"
+#include "common/sensing/turn_noise.hpp"
 #include "services/localization/localizer_config.hpp"
 #include "services/localization/scan_match.hpp"
 
@@ -42,9 +43,10 @@ struct StepWheels {
   bool have_leapt = false;   ///< and some metres farther than it can drive.
   bool have_begun = false;   ///< It counts for the first time, and at once more than a vehicle sets
                              ///< off with: it was driving before.
-  bool have_changed = false;   ///< It changed its velocity as no vehicle does.
-  bool are_in_doubt = false;   ///< So it did, or it was not believed at the last scan.
-  bool are_overruled = false;  ///< It predicted the step, and another explanation won.
+  bool have_changed = false;        ///< It changed its velocity as no vehicle does.
+  bool are_in_doubt = false;        ///< So it did, or it was not believed at the last scan.
+  bool are_overruled = false;       ///< It predicted the step, and another explanation won.
+  double turn_variance_rad2 = 0.0;  ///< Noise of its turn beyond that of sound wheels.
 };
 
 /// Motion from the last scan to the one at hand, as predicted before that is matched. Poses in
@@ -141,6 +143,7 @@ class OdometryPrediction {
                                          ///< turning point that is not as said.
     bool applies_pivot = false;
     Innovations innovations;
+    sensing::TurnNoise turn_noise;
     std::optional<LastScan> last;  ///< None before the first scan.
     sensing::OdometryBelief belief;
   };
@@ -253,6 +256,9 @@ class OdometryPrediction {
   sensing::MotionEstimate pivot_at_start() const;
   void take_back_standing(const sensing::OdometryComparison& comparison);
   void learn_wheels(const Step& step, const ScanMatch& match);
+  void learn_turn_noise(const Step& step, const ScanMatch& match);
+  double turn_variance_rad2(double duration_s) const;
+  sensing::WheelStep turned_as_likely(sensing::WheelStep by_wheels) const;
   void learn_stamp_offset(const Step& step, const ScanMatch& match);
   void doubt_calibration(const Step& step, const ScanMatch& match);
   void learn_pivot(const Step& step, const ScanMatch& match);

@@ -39,13 +39,22 @@ ScanMatcher::ScanMatcher(const LocalizerConfig& config, work::SideWork* help)
   by_scans_alone_.coarse_prior_sigmas = kCoarsePriorSigmas;
 }
 
+/// Where the wheels' turns are noise, scans tell the turn, and a car that drives off before the
+/// vehicle must not turn it.
+matching::PointToLineConfig ScanMatcher::beside_wheels(const Step& step) const {
+  matching::PointToLineConfig config = spaced(config_.match, step.usual_duration_s);
+  if (step.wheels.turn_variance_rad2 > 0.0)
+    config.body_sigma_m = config_.trust.body_sigma_without_wheels_m;
+  return config;
+}
+
 /// A single step that wheels are silent or wrong about may be one into what nobody has seen before:
 /// what is new counts in full. Without any wheels it would make the map of its own lag: where each
 /// scan is matched against the last one, nothing tells how slow it has become.
 matching::PointToLineConfig ScanMatcher::config_for(const Step& step) const {
   switch (step.source) {
     case StepSource::kOdometry:
-    case StepSource::kReach: return spaced(config_.match, step.usual_duration_s);
+    case StepSource::kReach: return beside_wheels(step);
     case StepSource::kVelocityThisOnce: return without_wheels_;
     case StepSource::kVelocityAlone: break;
   }

@@ -82,7 +82,12 @@ std::optional<Step> StepExplanations::recalibrated(const Step& by_wheels) const 
   before.calibration.head<3>().setZero();
   const geometry::Pose2 corrected = sensing::corrected(
       by_wheels.wheels.uncorrected, by_wheels.duration_s, belief_.estimator.factors());
-  step.after = sensing::moved_by_wheels(before, {corrected, by_wheels.duration_s}, motion_);
+  step.after = sensing::moved_by_wheels(before,
+                                        {.before_from_base = corrected,
+                                         .duration_s = by_wheels.duration_s,
+                                         .by_stamp_offset = Eigen::Vector3d::Zero(),
+                                         .turn_variance_rad2 = by_wheels.wheels.turn_variance_rad2},
+                                        motion_);
   step.after.calibration = before_.calibration;
   return step;
 }

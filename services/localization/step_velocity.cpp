@@ -24,11 +24,11 @@ Step with_velocity(Step step, const OdometryPrediction::LastScan& last) {
 sensing::Velocity OdometryPrediction::gained_in_sweep(const Step& step,
                                                       const geometry::Pose2& by_wheels,
                                                       double sweep_s) const {
-  constexpr double kLeastShare = 0.5;
+  constexpr double kLeastFittingShare = 0.5;
   const std::optional<std::int64_t> newest_ns = odometry_.newest_ns();
   if (sweep_s < sensing::kSlowSweep_s || step.duration_s <= 0.0 || !newest_ns) return {0.0, 0.0};
   const double swept_s = std::min(sweep_s, 1e-9 * static_cast<double>(*newest_ns - step.stamp_ns));
-  const auto at_end = swept_s >= kLeastShare * sweep_s
+  const auto at_end = swept_s >= kLeastFittingShare * sweep_s
                           ? wheel_from_base_at(step.stamp_ns + to_ns(swept_s))
                           : std::nullopt;
   if (!at_end) return {0.0, 0.0};

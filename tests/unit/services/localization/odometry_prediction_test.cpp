@@ -2,8 +2,10 @@
 
 #include <functional>
 #include <optional>
+#include <random>
 
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "tests/support/matchers.hpp"
 
@@ -75,6 +77,80 @@ TEST_F(OdometryPredictionTest, TakesTheMotionOfASlowSweepFromOdometryDuringIt) {
   EXPECT_THAT(swept.after.odom_from_base, PoseNear(pose_at(5), 0.01)) << "the stamp's pose";
   EXPECT_NEAR(prediction_.predict(stamp_ns(5), 0.01).speed_mps, kSpeed_mps, 0.1)
       << "a quick sweep is over before the velocity changes";
+}
+
+/// A vehicle that goes straight on at 5 m/s, whose wheels turn at random, beside sure scans.
+class NoisyTurns {
+ public:
+  explicit NoisyTurns(double noise_rad, std::int64_t period_ns = 26'666'667)
+      : noise_(0.0, noise_rad), period_ns_(period_ns) {
+    prediction_.add({0, wheel_from_base_});
+    prediction_.begin(0);
+  }
+
+  Step predicted_after(double turn_by_wheels_rad) {
+    stamp_ns_ += period_ns_;
+    way_m_ = 5e-9 * static_cast<double>(period_ns_);
+    wheel_from_base_ = wheel_from_base_ * Pose2{way_m_, 0.0, turn_by_wheels_rad};
+    prediction_.add({stamp_ns_, wheel_from_base_});
+    return prediction_.predict(stamp_ns_);
+  }
+
+  void drive(int scans) {
+    const geometry::Matrix3 information = Eigen::Vector3d(1e4, 1e4, 1e6).asDiagonal();
+    for (int scan = 0; scan < scans; ++scan) {
+      const Step step = predicted_after(noise_(random_));
+      truth_ = truth_ * Pose2{way_m_, 0.0, 0.0};
+      const geometry::UncertainPose2 prior = step.prior();
+      const geometry::Matrix3 covariance = (prior.covariance.inverse() + information).inverse();
+      const Eigen::Vector3d change =
+          covariance * information * geometry::difference(truth_, prior.pose);
+      const Pose2 matched{prior.pose.x_m + change.x(), prior.pose.y_m + change.y(),
+                          prior.pose.heading_rad + change.z()};
+      prediction_.observe(step, {.odom_from_base = {matched, covariance}, .is_believed = true});
+    }
+  }
+
+  const OdometryPrediction& prediction() const { return prediction_; }
+
+ private:
+  std::mt19937 random_{7};
+  std::normal_distribution<double> noise_;
+  std::int64_t period_ns_;
+  std::int64_t stamp_ns_ = 0;
+  double way_m_ = 0.0;
+  Pose2 wheel_from_base_;
+  Pose2 truth_;
+  OdometryPrediction prediction_{LocalizerConfig{}};
+};
+
+TEST(NoisyTurnsTest, LeaveTheTurnToScansAndToTheTurnBefore) {
+  NoisyTurns drive(0.003);
+  drive.drive(400);
+  const Step step = drive.predicted_after(0.006);
+  EXPECT_NEAR(std::sqrt(step.wheels.turn_variance_rad2), 3.0 * 0.003, 0.002);
+  EXPECT_LT(step.before_from_base.heading_rad, 0.004) << "it turned by 6 mrad by the wheels";
+  EXPECT_GT(step.prior().covariance(2, 2), 0.003 * 0.003);
+}
+
+TEST(NoisyTurnsTest, AreNotStampsThatAreEarlyOrLate) {
+  NoisyTurns drive(0.003);
+  drive.drive(2000);
+  EXPECT_FALSE(drive.prediction().state().applies_stamp_offset);
+}
+
+TEST(NoisyTurnsTest, AreNotThoseOfSoundWheels) {
+  NoisyTurns drive(0.0003);
+  drive.drive(400);
+  const Step step = drive.predicted_after(0.006);
+  EXPECT_EQ(step.wheels.turn_variance_rad2, 0.0);
+  EXPECT_NEAR(step.before_from_base.heading_rad, 0.006, 1e-3);
+}
+
+TEST(NoisyTurnsTest, AreNotToldWhereScansComeSeldom) {
+  NoisyTurns drive(0.01, 200'000'000);
+  drive.drive(100);
+  EXPECT_EQ(drive.predicted_after(0.006).wheels.turn_variance_rad2, 0.0);
 }
 
 TEST_F(OdometryPredictionTest, ChangesNothingByPredicting) {

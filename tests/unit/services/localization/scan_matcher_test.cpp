@@ -82,6 +82,25 @@ TEST_F(ScanMatcherTest, LeavesTheDirectionAlongAWallToThePrediction) {
   EXPECT_EQ(match.new_share, 0.0);
 }
 
+/// A car before a vehicle that stands in a street has most of the echoes, and begins to drive off.
+TEST_F(ScanMatcherTest, IsNotTurnedByACarAheadWhereTheWheelsTurnsAreNoise) {
+  const auto street = [](double turned_m) {
+    return MappedWorld({{{-40.0, 12.0}, {40.0, 12.0}},
+                        {{-40.0, -9.0}, {40.0, -9.0}},
+                        {{4.0, -1.0}, {4.0 + turned_m, 1.0}}});
+  };
+  const MappedWorld before = street(0.0);
+  const MappedWorld now = street(0.06);
+  const ScanPoints points = now.points_at({0.0, 0.0, 0.0});
+  const auto turned_rad = [&](double turn_variance_rad2) {
+    Step step = step_to({0.0, 0.0, 0.0}, 0.01, 0.015);
+    step.wheels.turn_variance_rad2 = turn_variance_rad2;
+    return std::abs(matcher_.match({points.matched(), before.map().surfels(), step, 1})
+                        .odom_from_base.pose.heading_rad);
+  };
+  EXPECT_LT(turned_rad(1e-5), 0.5 * turned_rad(0.0));
+}
+
 TEST_F(ScanMatcherTest, RegistersFromAnyPoseWithoutJudging) {
   const Pose2 truth{0.3, 0.2, 0.1};
   const ScanPoints points = room_.points_at(truth);
