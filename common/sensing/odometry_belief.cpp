@@ -136,7 +136,9 @@ void WheelFactorEstimator::observe(const Pose2& by_wheels, const Pose2& by_match
 
 /// The factors are not updated by steps with wheel slip.
 bool WheelFactorEstimator::is_known() const {
-  return steps_ >= kLeastSteps && way_sigma() < kKnownSigma && misfit_ < kMostMisfit;
+  constexpr double kLeastFactor = 0.5;  // less is no factor: the wheels slip
+  return steps_ >= kLeastSteps && way_sigma() < kKnownSigma && misfit_ < kMostMisfit &&
+         factors_.way > kLeastFactor;
 }
 double WheelFactorEstimator::way_sigma() const { return std::sqrt(std::max(way_variance_, 0.0)); }
 double WheelFactorEstimator::turn_sigma() const {

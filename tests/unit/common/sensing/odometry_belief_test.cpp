@@ -243,6 +243,14 @@ TEST(WheelFactorEstimator, KnowsNothingOfWheelsThatStand) {
   EXPECT_EQ(estimator.factors().way, 1.0);
 }
 
+TEST(WheelFactorEstimator, TakesWheelsThatSpinForNoFactor) {
+  WheelFactorEstimator estimator;
+  for (int step = 0; step < 200; ++step) {
+    estimator.observe({0.027, 0.0, 0.0}, {}, 0.027);
+    EXPECT_FALSE(estimator.is_known()) << "after " << step << " steps";
+  }
+}
+
 TEST(WheelFactorEstimator, KnowsNothingAfterAFewSteps) {
   EXPECT_FALSE(after_steps({.way = 1.3}, 3).is_known());
 }
