@@ -30,7 +30,7 @@ class FloorEchoes {
 
  private:
   /// Numbers of views at which it is looked for; a scanner that saw no floor by then sees none.
-  static constexpr std::array<std::size_t, 4> kLooks{32, 64, 128, 255};
+  static constexpr std::array<std::size_t, 2> kLooks{32, 64};
 
   struct Scanner {
     std::string scanner_id;
