@@ -89,10 +89,7 @@ int serve(const ServiceDescription& description, const ServiceOptions& options) 
   if (description.is_one_per_vehicle) {
     standby.emplace(context, description.keeps_state ? &lock : nullptr);
     if (description.prepare) description.prepare(context);
-    const auto rehearse = [&] {
-      if (description.rehearse) description.rehearse(context);
-    };
-    if (!standby->wait_until_it_leads(rehearse)) return context.exit_code();
+    if (!standby->wait_until_it_leads(description.rehearse)) return context.exit_code();
   }
   if (!lock.reason().empty()) watch(lock, context);
   std::shared_ptr<void> service = description.make(context);

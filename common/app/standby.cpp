@@ -32,11 +32,11 @@ Standby::Standby(ServiceContext& context, StateLock* lock)
   });
 }
 
-bool Standby::wait_until_it_leads(const std::function<void()>& rehearse) {
+bool Standby::wait_until_it_leads(const std::function<void(ServiceContext&)>& rehearse) {
   bool has_rehearsed = false;
   const auto leads = [&] {
     if (try_to_lead()) return true;
-    if (stood_by_ && !std::exchange(has_rehearsed, true)) rehearse();
+    if (stood_by_ && rehearse && !std::exchange(has_rehearsed, true)) rehearse(context_);
     return false;
   };
   if (!context_.run_until(leads)) return false;

@@ -26,10 +26,10 @@ class Standby {
   Standby(const Standby&) = delete;
   Standby& operator=(const Standby&) = delete;
 
-  /// Waits until this process leads; false if it was stopped before. rehearse() is called once,
-  /// when it stands by. Afterwards the process is stopped with kExitInUse when another one
-  /// prevails.
-  bool wait_until_it_leads(const std::function<void()>& rehearse);
+  /// Waits until this process leads; false if it was stopped before. rehearse, which may be
+  /// empty, is called once, when it stands by. Afterwards the process is stopped with kExitInUse
+  /// when another one prevails.
+  bool wait_until_it_leads(const std::function<void(ServiceContext&)>& rehearse);
 
  private:
   bool try_to_lead();

@@ -9,6 +9,7 @@
 #include "common/files/log_profile.hpp"
 #include "common/files/repeated_scans.hpp"
 #include "common/files/sorted_records.hpp"
+#include "common/sensing/blank_reading.hpp"
 #include "common/sensing/deskew.hpp"
 
 namespace slammot::files {
@@ -544,11 +545,10 @@ sensing::LaserScan CarmenLog::scan_of(LaserRecord record, std::size_t scanner,
 
 /// Corrects beams and ranges as the survey found: unit by log, beams by main scanner.
 void CarmenLog::correct(sensing::LaserScan& scan, std::size_t scanner) const {
-  constexpr float kTellsNothing = 1e-3F;  // in any unit nearer than the least range of any scanner
   const matching::LogCorrection& correction = plan_.evidence.correction;
   if (!plan_.scanners.empty()) {
-    scanner_plan(scanner).own_body.hide(scan.range_m, kTellsNothing);
-    scanner_plan(scanner).floor.hide(scan.range_m, kTellsNothing);
+    scanner_plan(scanner).own_body.hide(scan.range_m, sensing::kTellsNothing);
+    scanner_plan(scanner).floor.hide(scan.range_m, sensing::kTellsNothing);
   }
   if (correction.range_unit_m != 1.0) {
     for (float& range_m : scan.range_m) range_m *= static_cast<float>(correction.range_unit_m);

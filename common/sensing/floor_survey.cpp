@@ -131,14 +131,13 @@ LineEvidence evidence_of(const RepeatedLine& floor, const InverseScans& scans,
 /// True for a line beside the vehicle that is seen less often in turns: a wall along the way.
 bool may_be_a_wall(const RepeatedLine& floor, const LineEvidence& evidence,
                    double laser_heading_rad) {
-  constexpr double kBeside = 0.8;  // sine
   constexpr double kFewestInTurns = 5.0;
   constexpr double kLeastInTurns = 0.5;  // of its share of the views on straights
   const double bearing_rad =
       std::atan2(floor.inverse_per_m.y(), floor.inverse_per_m.x()) + laser_heading_rad;
   const double expected_in_turns = static_cast<double>(evidence.with_it[0] * evidence.views[1]) /
                                    static_cast<double>(std::max<std::size_t>(1, evidence.views[0]));
-  return std::abs(std::sin(bearing_rad)) > kBeside &&
+  return lies_beside(bearing_rad) &&
          static_cast<double>(evidence.with_it[1]) <
              std::max(kFewestInTurns, kLeastInTurns * expected_in_turns);
 }
@@ -230,6 +229,11 @@ double share_of_others(std::span<const FloorSurvey::View> views, const std::vect
 }
 
 }  // namespace
+
+bool lies_beside(double bearing_rad) {
+  constexpr double kBeside = 0.8;  // sine: 53 degrees
+  return std::abs(std::sin(bearing_rad)) > kBeside;
+}
 
 void FloorInView::hide(std::span<float> readings, float nothing) const {
   if (readings.size() != from.size()) return;

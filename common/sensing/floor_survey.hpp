@@ -30,6 +30,10 @@ struct FloorInView {
   void hide(std::span<float> readings, float nothing) const;
 };
 
+/// True for a line whose nearest point lies at this bearing in base more to the side than ahead or
+/// back.
+bool lies_beside(double bearing_rad);
+
 /// What the readings of a scanner mean.
 struct SurveyedBeams {
   double first_beam_rad = 0.0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "common/geometry/pose2.hpp"
+
 namespace slammot::sensing {
 
 /// White noise of the wheels' turns, as scans show it. Noise is in the wheels' turn and, with the
@@ -15,9 +17,8 @@ class TurnNoise {
   /// One more scan. heading_rad: by the scan, as if nothing had predicted it. by_wheels_rad: turn
   /// since the scan before.
   void add(double heading_rad, double by_wheels_rad, double duration_s) {
-    constexpr double kTwoTurns = 6.283185307179586;
     if (heading_rad_ && by_wheels_rad_) {
-      const double by_scans_rad = std::remainder(heading_rad - *heading_rad_, kTwoTurns);
+      const double by_scans_rad = geometry::wrap_angle(heading_rad - *heading_rad_);
       const double told = (by_wheels_rad - by_scans_rad) * (by_wheels_rad - *by_wheels_rad_);
       const double most = kOutlier * std::max(variance_, kUsual);
       steps_ = std::min(steps_ + 1.0, kMemory);

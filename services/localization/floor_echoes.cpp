@@ -1,20 +1,10 @@
 #include "services/localization/floor_echoes.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "common/sensing/blank_reading.hpp"
 
 namespace slammot::localization {
-namespace {
-
-constexpr float kTellsNoFloor_m = 1e-3F;  // nearer than the least range of any scanner
-
-/// A wall along the way stays there, too, until the vehicle has turned often enough.
-bool lies_beside(const sensing::FloorInView& floor, const sensing::LaserScan& scan) {
-  constexpr double kBeside = 0.8;  // sine
-  return std::abs(std::sin(floor.bearing_rad + scan.scanner.base_from_laser.heading_rad)) > kBeside;
-}
-
-}  // namespace
 
 FloorEchoes::Scanner& FloorEchoes::scanner_of(const sensing::LaserScan& scan) {
   const auto known = std::ranges::find(scanners_, scan.scanner.scanner_id, &Scanner::scanner_id);
@@ -41,7 +31,9 @@ void FloorEchoes::look(Scanner& scanner, const sensing::LaserScan& scan) {
                                .laser_heading_rad = scan.scanner.base_from_laser.heading_rad,
                                .unit_m = 1.0,
                                .no_echo_m = scan.scanner.max_range_m});
-  if (lies_beside(scanner.floor, scan)) scanner.floor = {};
+  // A wall along the way stays there, too, until the vehicle has turned often enough.
+  if (sensing::lies_beside(scanner.floor.bearing_rad + scan.scanner.base_from_laser.heading_rad))
+    scanner.floor = {};
   if (scanner.floor.is_in_view()) {
     found_now_ = scanner.floor;
     scanner.looks = kLooks.size();
@@ -53,7 +45,7 @@ const sensing::LaserScan& FloorEchoes::without_floor(const sensing::LaserScan& s
   const sensing::FloorInView& floor = scanner_of(scan).floor;
   if (!floor.is_left_out()) return scan;
   cleared_ = scan;
-  floor.hide(cleared_.range_m, kTellsNoFloor_m);
+  floor.hide(cleared_.range_m, sensing::kTellsNothing);
   return cleared_;
 }
 

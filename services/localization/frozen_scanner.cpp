@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/sensing/blank_reading.hpp"
+
 namespace slammot::localization {
 namespace {
 
 constexpr double kMoved_m = 0.03;  // more changes some reading of a scanner that counts centimetres
 constexpr double kMoved_rad = 0.03;
 constexpr std::size_t kEchoesToCompare = 10;
-constexpr float kTellsNothing_m = 1e-3F;  // nearer than the least range of any scanner
 
 bool has_moved(const geometry::Pose2& first, const geometry::Pose2& now) {
   const geometry::Pose2 moved = geometry::inverse(first) * now;
@@ -45,7 +46,7 @@ bool FrozenScanner::repeats(const sensing::LaserScan& scan,
 
 const sensing::LaserScan& FrozenScanner::without_readings(const sensing::LaserScan& scan) {
   empty_ = scan;
-  std::ranges::fill(empty_.range_m, kTellsNothing_m);
+  std::ranges::fill(empty_.range_m, sensing::kTellsNothing);
   return empty_;
 }
 

@@ -51,16 +51,16 @@ export class Vertices {
     this.every(1);
   }
 
-  /** Of `count` vertices in the buffer one is drawn; the stride of a buffer, times count, is at most 255. */
-  every(count) {
-    if (this.count === count) return this;
+  /** Of so many vertices in the buffer one is drawn. Their bytes are at most 255, the longest stride. */
+  every(step) {
+    if (this.step === step) return this;
     const gl = this.gl;
-    this.count = count;
+    this.step = step;
     gl.bindVertexArray(this.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
     for (const [location, size, type, normalized, offset, divisor] of this.attributes) {
       gl.enableVertexAttribArray(location);
-      gl.vertexAttribPointer(location, size, type, normalized, this.stride * count, offset);
+      gl.vertexAttribPointer(location, size, type, normalized, this.stride * step, offset);
       gl.vertexAttribDivisor(location, divisor ?? 0);
     }
     gl.bindVertexArray(null);

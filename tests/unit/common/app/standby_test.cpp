@@ -28,7 +28,7 @@ class Process {
       : lock_(lock_file), context_("localization", options(bus, instance)) {
     thread_ = std::thread([this] {
       Standby standby(context_, &lock_);
-      if (!standby.wait_until_it_leads([this] { ++rehearsals_; })) return;
+      if (!standby.wait_until_it_leads([this](ServiceContext&) { ++rehearsals_; })) return;
       leads_ = true;
       most_leading = std::max<int>(most_leading, ++leading);
       context_.run([this] {
