@@ -39,6 +39,16 @@ class TurnNoise {
     return steps_ < kFewest ? 0.0 : std::max(0.0, variance_) * duration_s;
   }
 
+  /// Passes each value of the state to the visitor, in a fixed order: for a checkpoint.
+  template <typename Visitor>
+  void visit(Visitor visit) const {
+    visit(variance_), visit(steps_), visit(heading_rad_), visit(by_wheels_rad_);
+  }
+  template <typename Visitor>
+  void visit(Visitor visit) {
+    visit(variance_), visit(steps_), visit(heading_rad_), visit(by_wheels_rad_);
+  }
+
   /// Whether a state that was read can have been one.
   bool is_sound() const {
     return steps_ >= 0.0 && steps_ <= kMemory && std::abs(variance_) < kLargest &&

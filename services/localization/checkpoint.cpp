@@ -10,7 +10,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x736c616d6d6f746d;  // "slammotm": the last letter counts the forms
+constexpr std::uint64_t kMark = 0x736c616d6d6f746e;  // "slammotn": the last letter counts the forms
                                                      // of a checkpoint
 constexpr double kFastestRestored = 1e3;  // m/s or rad/s: no vehicle was faster when the checkpoint
                                           // was made
@@ -101,7 +101,7 @@ void visit_pose(State& pose, Visitor visit) {
   visit_estimate(pose.prediction.with_pivot, visit);
   visit(pose.prediction.applies_pivot);
   visit(pose.prediction.innovations);
-  visit(pose.prediction.turn_noise);
+  pose.prediction.turn_noise.visit(visit);
   visit_belief(pose.prediction.belief, visit);
   visit_monitor(pose.monitor, visit);
   visit(pose.covariance.factors.of_axis);
