@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include "common/dds/reader.hpp"
 #include "common/dds/writer.hpp"
@@ -51,16 +54,39 @@ TEST(Participant, SaysThatADomainIsOutOfRange) {
               HasSubstr("out of range"));
 }
 
+/// A UDP port that nobody else can have.
+class TakenPort {
+ public:
+  TakenPort() : socket_(::socket(AF_INET, SOCK_DGRAM, 0)) {
+    auto* const generic = reinterpret_cast<sockaddr*>(&address_);
+    socklen_t size = sizeof address_;
+    address_.sin_family = AF_INET;
+    is_bound_ = ::bind(socket_, generic, size) == 0 && ::getsockname(socket_, generic, &size) == 0;
+  }
+  ~TakenPort() { ::close(socket_); }
+  TakenPort(const TakenPort&) = delete;
+  TakenPort& operator=(const TakenPort&) = delete;
+
+  bool is_bound() const { return is_bound_; }
+  int number() const { return ntohs(address_.sin_port); }
+
+ private:
+  int socket_;
+  sockaddr_in address_{};
+  bool is_bound_ = false;
+};
+
 TEST(Participant, SaysThatItsPortIsInUse) {
-  const auto config = [](const std::string& tag) {
-    return "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-           "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>5</"
-           "ParticipantIndex>"
-           "<Ports><Base>51000</Base><DomainGain>0</DomainGain></Ports><Tag>" +
-           tag + "</Tag></Discovery></Domain></CycloneDDS>";
-  };
-  const Participant first({.domain_id = 211, .name = "", .config = config("a")});
-  EXPECT_THAT(reason_of_failure({.domain_id = 212, .name = "", .config = config("b")}),
+  const TakenPort taken;
+  ASSERT_TRUE(taken.is_bound());
+  const int base = taken.number() - 20;  // participant 5: base + 10 + 2 * 5 (RTPS 2.2, 9.6.1)
+  const std::string config =
+      "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
+      "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>5</"
+      "ParticipantIndex><Ports><Base>" +
+      std::to_string(base) +
+      "</Base><DomainGain>0</DomainGain></Ports></Discovery></Domain></CycloneDDS>";
+  EXPECT_THAT(reason_of_failure({.domain_id = 212, .name = "", .config = config}),
               HasSubstr("port"));
 }
 
