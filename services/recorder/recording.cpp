@@ -24,7 +24,8 @@ Recording::Recording(const RecordingOptions& options)
 Recording::~Recording() { finish(); }
 
 mcap::ChannelId Recording::add(const recordings::RecordedTopic& topic) {
-  KnownChannel known{topic.schema, topic.channel};
+  const bool is_kept = dds::offered_qos_of(topic.channel.metadata).is_transient_local;
+  KnownChannel known{topic.schema, topic.channel, is_kept ? &kept_ : &passing_};
   const auto same = std::ranges::find_if(channels_, [&](const KnownChannel& other) {
     return other.schema.name == known.schema.name && other.schema.data == known.schema.data;
   });
@@ -37,11 +38,11 @@ mcap::ChannelId Recording::add(const recordings::RecordedTopic& topic) {
 }
 
 /// Whether there is a chunk to add to.
-bool Recording::has_room() {
-  if (chunk_) return true;
+bool Recording::has_room(Chunk& chunk) {
+  if (chunk) return true;
   const std::scoped_lock lock(mutex_);
   if (free_.empty() || !fault_.empty()) return false;
-  chunk_ = std::move(free_.back());
+  chunk = std::move(free_.back());
   free_.pop_back();
   return true;
 }
@@ -50,26 +51,32 @@ void Recording::add(mcap::ChannelId channel_id, std::int64_t log_time_ns,
                     std::int64_t publish_time_ns, mcap::Bytes data) {
   KnownChannel& channel = channels_.at(channel_id - std::size_t{1});
   const std::uint32_t sequence = channel.next_sequence++;  // gaps show where messages were dropped
-  if (!has_room()) {
+  if (!has_room(*channel.chunk)) {
     ++dropped_;
     return;
   }
+  mcap::ChunkBuilder& chunk = **channel.chunk;
   if (!channel.is_written) {
-    chunk_->add(channel.schema);
-    chunk_->add(channel.channel);
+    chunk.add(channel.schema);
+    chunk.add(channel.channel);
     channel.is_written = true;
   }
-  chunk_->add({channel_id, sequence, log_time_ns, publish_time_ns}, data);
+  chunk.add({channel_id, sequence, log_time_ns, publish_time_ns}, data);
   ++recorded_;
   bytes_ += data.size();
-  if (chunk_->records().size() >= options_.chunk_bytes) flush();
+  if (chunk.records().size() >= options_.chunk_bytes) hand_over(*channel.chunk);
 }
 
 void Recording::flush() {
-  if (!chunk_ || chunk_->empty()) return;
+  hand_over(passing_);
+  hand_over(kept_);
+}
+
+void Recording::hand_over(Chunk& chunk) {
+  if (!chunk || chunk->empty()) return;
   {
     const std::scoped_lock lock(mutex_);
-    full_.push_back(std::move(chunk_));
+    full_.push_back(std::move(chunk));
   }
   changed_.notify_one();
 }

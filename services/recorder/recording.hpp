@@ -25,8 +25,9 @@ struct RecordingOptions {
 };
 
 /// A recording under way. Messages are copied into chunks; a thread packs the chunks and writes
-/// them, so that a slow disk never holds up who adds messages. Without a free chunk messages are
-/// dropped and counted. Add messages from one thread.
+/// them, so that a slow disk never holds up who adds messages. What the bus keeps for late joiners,
+/// such as the map, has chunks of its own: a player reads these alone to know what there was at any
+/// time. Without a free chunk messages are dropped and counted. Add messages from one thread.
 class Recording {
  public:
   /// Begins the file. fault() says whether that failed.
@@ -39,7 +40,7 @@ class Recording {
   mcap::ChannelId add(const recordings::RecordedTopic& topic);
   void add(mcap::ChannelId channel, std::int64_t log_time_ns, std::int64_t publish_time_ns,
            mcap::Bytes data);
-  /// Hands the present chunk to the writing thread: what was added is in the file soon.
+  /// Hands the present chunks to the writing thread: what was added is in the file soon.
   void flush();
   /// Writes what is left and ends the file. True if all that was not dropped is on the disk.
   bool finish();
@@ -55,11 +56,13 @@ class Recording {
   struct KnownChannel {
     mcap::Schema schema;
     mcap::Channel channel;
+    Chunk* chunk = nullptr;  ///< The present one of its kind.
     std::uint32_t next_sequence = 0;
     bool is_written = false;
   };
 
-  bool has_room();
+  bool has_room(Chunk& chunk);
+  void hand_over(Chunk& chunk);
   void write_chunks();
   void note_fault(const std::string& fault);
 
@@ -67,7 +70,8 @@ class Recording {
   mcap::FileSink file_;
   mcap::Writer writer_;  ///< Of the writing thread until it has ended.
   std::vector<KnownChannel> channels_;
-  Chunk chunk_;  ///< Null: none is free.
+  Chunk passing_;  ///< Null, as the next one: none is free.
+  Chunk kept_;     ///< Of topics that the bus keeps for late joiners.
   std::uint64_t recorded_ = 0;
   std::uint64_t dropped_ = 0;
   std::uint64_t bytes_ = 0;

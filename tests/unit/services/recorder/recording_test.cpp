@@ -41,6 +41,33 @@ TEST_F(RecordingToFile, TopicsOfOneTypeShareTheirSchema) {
   EXPECT_EQ(file->contents().damage, std::vector<std::string>{});
 }
 
+TEST_F(RecordingToFile, WhatTheBusKeepsIsInChunksOfItsOwn) {
+  recordings::RecordedTopic map = topic("map");
+  map.channel.metadata = {{"qos.durability", "transient_local"}};
+  Recording recording(options_);
+  const mcap::ChannelId scans = recording.add(topic("scans"));
+  const mcap::ChannelId tiles = recording.add(map);
+  const std::vector<std::uint8_t> data(100, 1);
+  for (const std::int64_t stamp_ns : {1, 2, 3, 4, 5, 6}) {
+    recording.add(stamp_ns % 3 == 0 ? tiles : scans, stamp_ns, stamp_ns, data);
+    if (stamp_ns == 3) recording.flush();
+  }
+  ASSERT_TRUE(recording.finish());
+  const auto file = mcap::File::open(options_.path);
+  ASSERT_TRUE(file);
+  std::vector<std::vector<mcap::ChannelId>> channels_of_chunks;
+  for (const mcap::ChunkIndex& chunk : file->contents().chunks) {
+    channels_of_chunks.emplace_back();
+    for (const auto& [channel, offset] : chunk.index_offsets)
+      channels_of_chunks.back().push_back(channel);
+  }
+  EXPECT_EQ(channels_of_chunks,
+            (std::vector<std::vector<mcap::ChannelId>>{{scans}, {tiles}, {scans}, {tiles}}));
+  std::vector<std::int64_t> times;
+  for (const mcap::MessageHead& head : heads()) times.push_back(head.log_time_ns);
+  EXPECT_EQ(times, (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6}));
+}
+
 TEST_F(RecordingToFile, DroppedMessagesAreCountedAndLeaveAGap) {
   options_.most_chunks = 0;
   Recording recording(options_);
