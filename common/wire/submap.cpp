@@ -354,17 +354,17 @@ SubmapAssembler::Added SubmapAssembler::complete(flow::SubmapId submap_id) {
   const std::uint64_t hash = partial.mapped().header.content_hash;
   if (content_hash(partial.mapped().submap) != hash) {
     ++counters_.faulty_tiles;
-    return {std::nullopt, "the tiles do not add up to the submap that was sent"};
+    return {std::nullopt, 0, "the tiles do not add up to the submap that was sent"};
   }
   content_hash_of_complete_[submap_id] = hash;
-  return {std::move(partial.mapped().submap), ""};
+  return {std::move(partial.mapped().submap), hash, ""};
 }
 
 SubmapAssembler::Added SubmapAssembler::add(const slammot_SubmapTile& tile) {
   ++counters_.tiles;
   if (const std::string_view fault = fault_of(tile); !fault.empty()) {
     ++counters_.faulty_tiles;
-    return {std::nullopt, fault};
+    return {std::nullopt, 0, fault};
   }
   const flow::SubmapId submap_id{tile.submap_id};
   const auto complete_one = content_hash_of_complete_.find(submap_id);
@@ -380,7 +380,7 @@ SubmapAssembler::Added SubmapAssembler::add(const slammot_SubmapTile& tile) {
       partial.submap.rows != tile.header.row_count ||
       partial.submap.surfels.size() != tile.header.surfel_count) {
     ++counters_.faulty_tiles;
-    return {std::nullopt, "the tile's header is not that of its submap's other tiles"};
+    return {std::nullopt, 0, "the tile's header is not that of its submap's other tiles"};
   }
   if (partial.has_tile[tile.tile_index]) {
     ++counters_.repeated_tiles;

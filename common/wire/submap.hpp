@@ -64,7 +64,8 @@ class SubmapAssembler {
   /// if the submap was complete before and has not changed. Submaps become complete in any order.
   struct Added {
     std::optional<flow::Submap> submap;
-    std::string_view fault;  ///< Reason of rejection; empty if accepted.
+    std::uint64_t content_hash = 0;  ///< Of the submap.
+    std::string_view fault;          ///< Reason of rejection; empty if accepted.
   };
   Added add(const slammot_SubmapTile& tile);
 

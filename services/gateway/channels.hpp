@@ -27,8 +27,9 @@ enum class ChannelId : std::uint32_t {
   kHealth,
 };
 
-/// Kept: the last message is sent to whoever subscribes later.
-enum class Retention { kNone, kLast };
+/// kLast: the last message is sent to whoever subscribes later. kLastWanted: so it is, but messages
+/// are made only while somebody subscribes, since they are costly.
+enum class Retention { kNone, kLast, kLastWanted };
 
 struct Channel {
   ChannelId id{};

@@ -35,8 +35,8 @@ class DriveMessages {
 
   /// Publishes what changed of the map. Call it a few times a second.
   void publish_map(Time now) { map_.publish(now); }
-  /// Waits for what is in work: the next publish_map() has it.
-  void finish_map() const { map_.finish_grids(); }
+  /// Waits until what has been taken is made: the next publish_map() has it.
+  void finish_map() { map_.finish(); }
 
  private:
   template <typename Value>

@@ -9,9 +9,7 @@ namespace {
 
 std::size_t index_of(ChannelId channel) { return static_cast<std::size_t>(channel); }
 
-bool is_retained(ChannelId channel) {
-  return channels()[index_of(channel)].retention == Retention::kLast;
-}
+Retention retention_of(ChannelId channel) { return channels()[index_of(channel)].retention; }
 
 }  // namespace
 
@@ -41,7 +39,7 @@ void Hub::count_subscribers(ChannelId channel, int change) {
 }
 
 void Hub::publish(const Message& message) {
-  if (is_retained(message.channel)) last_[index_of(message.channel)] = message;
+  if (retention_of(message.channel) != Retention::kNone) last_[index_of(message.channel)] = message;
   for (Viewer* viewer : std::set<Viewer*>(viewers_)) {
     if (viewers_.contains(viewer)) viewer->deliver(message);
   }
@@ -50,7 +48,7 @@ void Hub::publish(const Message& message) {
 std::optional<Message> Hub::last(ChannelId channel) const { return last_[index_of(channel)]; }
 
 bool Hub::is_wanted(ChannelId channel) const {
-  return is_retained(channel) || subscribers_[index_of(channel)] > 0;
+  return retention_of(channel) == Retention::kLast || subscribers_[index_of(channel)] > 0;
 }
 
 HubCounters Hub::counters() const {

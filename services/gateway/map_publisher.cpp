@@ -22,21 +22,41 @@ MapView& MapPublisher::view_of(flow::MapId map_id) {
 
 std::string_view MapPublisher::take(const slammot_SubmapTile& tile) {
   wire::SubmapAssembler::Added added = submaps_.add(tile);
-  if (added.submap) add(std::move(*added.submap));
+  if (added.submap)
+    arrived_.push_back({std::make_shared<const flow::Submap>(reduced(std::move(*added.submap))),
+                        added.content_hash});
   return added.fault;
 }
 
-void MapPublisher::add(flow::Submap submap) {
-  const std::uint64_t version = wire::content_hash(submap);
-  const auto view = std::make_shared<const flow::Submap>(reduced(submap));
-  const std::string path = view_of(submap.map_id).add(view, version);
+void MapPublisher::begin_submaps() {
+  if (in_work_.valid() || arrived_.empty()) return;
+  in_work_ = std::async(std::launch::async, [submaps = std::exchange(arrived_, {})]() mutable {
+    for (ShownView& submap : submaps) submap.compressed_cells = compressed_cells(*submap.view);
+    return std::move(submaps);
+  });
+}
+
+void MapPublisher::finish() {
+  if (in_work_.valid()) publish_submaps();
+  begin_submaps();
+  if (in_work_.valid()) in_work_.wait();
+  if (grids_.valid()) grids_.wait();
+}
+
+void MapPublisher::publish_submaps() {
+  for (ShownView& submap : in_work_.get()) add(std::move(submap));
+}
+
+void MapPublisher::add(ShownView submap) {
+  const flow::MapId map_id = submap.view->map_id;
+  const std::string path = view_of(map_id).add(std::move(submap.view), submap.version);
   std::string& served = served_[path.substr(0, path.rfind('/'))];
   if (!served.empty() && served != path) audience_.remove(served);
   served = path;
-  Content content{"application/octet-stream", compressed_cells(*view), "gzip"};
+  Content content{"application/octet-stream", std::move(submap.compressed_cells), "gzip"};
   content.is_immutable = true;
   audience_.put(path, std::move(content));
-  if (!in_use_) in_use_ = submap.map_id;
+  if (!in_use_) in_use_ = map_id;
   has_new_graph_ = has_new_map_ = true;
 }
 
@@ -80,6 +100,8 @@ void MapPublisher::follow(const flow::LocalizedScan& scan) {
 }
 
 void MapPublisher::publish(Time now) {
+  if (in_work_.valid() && in_work_.wait_for(0s) == std::future_status::ready) publish_submaps();
+  begin_submaps();
   if (!in_use_) return;
   if (std::exchange(has_new_graph_, false)) publish_graph();
   publish_ways();

@@ -116,10 +116,13 @@ ConvertedRecording convert_recording(const mcap::File& recording,
     decoder.take(*message);
     if (now_ns < map_due_ns) continue;
     map_due_ns = now_ns + kMapPeriodNs;
-    drive.publish_map(time_at(now_ns));
     drive.finish_map();
+    drive.publish_map(time_at(now_ns));
   }
-  drive.publish_map(time_at(map_due_ns));
+  for (const std::int64_t last_ns : {map_due_ns, map_due_ns + kMapPeriodNs}) {  // grids come second
+    drive.finish_map();
+    drive.publish_map(time_at(last_ns));
+  }
   if (!file.finish()) result.fault = file.fault();
   result.messages = file.messages();
   return result;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <zlib.h>
 
@@ -16,20 +19,30 @@ struct Window {
   std::uint64_t rows() const { return end_row - first_row; }
 };
 
-bool is_seen(const flow::Submap& submap, std::size_t cell) {
-  return submap.so_log_odds[cell] != 0 || submap.mo_evidence[cell] != 0;
+/// Widens the columns by those of the row's cells that are not zero. False if all are.
+template <typename Cell>
+bool widen(std::span<const Cell> row, Window& window) {
+  const auto is_seen = [](Cell cell) { return cell != 0; };
+  const auto first = std::find_if(row.begin(), row.end(), is_seen);
+  if (first == row.end()) return false;
+  const auto end = std::find_if(row.rbegin(), row.rend(), is_seen).base();
+  window.first_column =
+      std::min(window.first_column, static_cast<std::uint32_t>(first - row.begin()));
+  window.end_column = std::max(window.end_column, static_cast<std::uint32_t>(end - row.begin()));
+  return true;
 }
 
 std::optional<Window> seen_window(const flow::Submap& submap) {
   Window window{submap.columns, 0, submap.rows, 0};
   for (std::uint32_t row = 0; row < submap.rows; ++row) {
-    for (std::uint32_t column = 0; column < submap.columns; ++column) {
-      if (!is_seen(submap, std::size_t{row} * submap.columns + column)) continue;
-      window.first_column = std::min(window.first_column, column);
-      window.end_column = std::max(window.end_column, column + 1);
-      window.first_row = std::min(window.first_row, row);
-      window.end_row = row + 1;
-    }
+    const std::size_t first = std::size_t{row} * submap.columns;
+    const bool is_stationary_seen =
+        widen(std::span(submap.so_log_odds).subspan(first, submap.columns), window);
+    const bool is_motion_seen =
+        widen(std::span(submap.mo_evidence).subspan(first, submap.columns), window);
+    if (!is_stationary_seen && !is_motion_seen) continue;
+    window.first_row = std::min(window.first_row, row);
+    window.end_row = row + 1;
   }
   if (window.end_row == 0) return std::nullopt;
   return window;
@@ -47,17 +60,23 @@ std::uint32_t merging_factor(const Window& window, std::uint64_t most_cells) {
   return factor;
 }
 
-void fill(const flow::Submap& submap, const Window& window, std::uint32_t factor,
-          flow::Submap& view) {
+/// Cells of a submap, row-major.
+struct Cells {
+  std::uint32_t columns;
+  std::vector<std::int8_t> so_log_odds;
+  std::vector<std::uint8_t> mo_evidence;
+};
+
+void fill(const Cells& cells, const Window& window, std::uint32_t factor, flow::Submap& view) {
   for (std::uint32_t row = window.first_row; row < window.end_row; ++row) {
     for (std::uint32_t column = window.first_column; column < window.end_column; ++column) {
-      const std::size_t from = std::size_t{row} * submap.columns + column;
+      const std::size_t from = std::size_t{row} * cells.columns + column;
       const std::size_t to = std::size_t{(row - window.first_row) / factor} * view.columns +
                              (column - window.first_column) / factor;
-      const std::int8_t so = submap.so_log_odds[from];
+      const std::int8_t so = cells.so_log_odds[from];
       std::int8_t& so_view = view.so_log_odds[to];
       if (so != 0) so_view = so_view == 0 ? so : std::max(so, so_view);
-      view.mo_evidence[to] = std::max(view.mo_evidence[to], submap.mo_evidence[from]);
+      view.mo_evidence[to] = std::max(view.mo_evidence[to], cells.mo_evidence[from]);
     }
   }
 }
@@ -80,23 +99,21 @@ std::string gzip(const std::string& bytes) {
 
 }  // namespace
 
-flow::Submap reduced(const flow::Submap& submap, std::uint64_t most_cells) {
-  flow::Submap view = submap;
-  view.surfels.clear();
-  view.surfels.shrink_to_fit();
-  const auto window = seen_window(submap);
+flow::Submap reduced(flow::Submap view, std::uint64_t most_cells) {
+  const auto window = seen_window(view);
   const std::uint32_t factor = window ? merging_factor(*window, most_cells) : 1;
+  const Cells cells{view.columns, std::move(view.so_log_odds), std::move(view.mo_evidence)};
+  view.surfels = std::vector<flow::Surfel>();
   view.columns = window ? merged(window->columns(), factor) : 0;
   view.rows = window ? merged(window->rows(), factor) : 0;
-  view.cell_size_m = submap.cell_size_m * factor;
-  view.so_log_odds.assign(std::size_t{view.columns} * view.rows, 0);
-  view.mo_evidence.assign(view.so_log_odds.size(), 0);
-  view.so_log_odds.shrink_to_fit();
-  view.mo_evidence.shrink_to_fit();
-  if (!window) return view;
-  view.min_x_m = submap.min_x_m + window->first_column * submap.cell_size_m;
-  view.min_y_m = submap.min_y_m + window->first_row * submap.cell_size_m;
-  fill(submap, *window, factor, view);
+  view.so_log_odds = std::vector<std::int8_t>(std::size_t{view.columns} * view.rows);
+  view.mo_evidence = std::vector<std::uint8_t>(view.so_log_odds.size());
+  if (window) {
+    view.min_x_m += window->first_column * view.cell_size_m;
+    view.min_y_m += window->first_row * view.cell_size_m;
+    fill(cells, *window, factor, view);
+  }
+  view.cell_size_m *= factor;
   return view;
 }
 
