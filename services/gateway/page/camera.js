@@ -79,6 +79,15 @@ export class Camera {
     return [((px + 1) / 2) * this.width, ((1 - py) / 2) * this.height];
   }
 
+  /** Rectangle [least x, least y, greatest x, greatest y] around the ground in the picture, in map, at most `far` metres from the target. */
+  groundSeen(far) {
+    const corners = [[0, 0], [this.width, 0], [0, this.height], [this.width, this.height]].map(([px, py]) => this.ground(px, py));
+    const clamped = (value, centre) => Math.min(centre + far, Math.max(centre - far, value));
+    const xs = corners.flatMap((corner) => (corner ? [clamped(corner[0], this.x)] : [this.x - far, this.x + far]));
+    const ys = corners.flatMap((corner) => (corner ? [clamped(corner[1], this.y)] : [this.y - far, this.y + far]));
+    return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+  }
+
   /** Point on the ground, in map, under a pixel; null above the horizon. */
   ground(px, py) {
     const slope = Math.tan(FIELD_OF_VIEW / 2);

@@ -48,6 +48,19 @@ export function ellipse(a, b, d, scale) {
 /** Standard deviations of the ellipse that holds the share of a Gaussian in the plane. */
 export const sigmas = (share) => Math.sqrt(-2 * Math.log(1 - share));
 
+/** Of two rectangles [least x, least y, greatest x, greatest y]: whether they have points in common. */
+export const meet = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+
+/** Rectangle around a polyline [x0, y0, x1, y1, ...]. */
+export function boundsOfLine(points) {
+  const bounds = [Infinity, Infinity, -Infinity, -Infinity];
+  points.forEach((value, i) => {
+    bounds[i % 2] = Math.min(bounds[i % 2], value);
+    bounds[2 + (i % 2)] = Math.max(bounds[2 + (i % 2)], value);
+  });
+  return bounds;
+}
+
 /** Difference of two angles, in (-pi, pi]. */
 export const turn = (from, to) => Math.atan2(Math.sin(to - from), Math.cos(to - from));
 

@@ -46,25 +46,14 @@ export class Vertices {
     this.gl = gl;
     this.buffer = gl.createBuffer();
     this.array = gl.createVertexArray();
-    this.stride = stride;
-    this.attributes = attributes;
-    this.every(1);
-  }
-
-  /** Of so many vertices in the buffer one is drawn. Their bytes are at most 255, the longest stride. */
-  every(step) {
-    if (this.step === step) return this;
-    const gl = this.gl;
-    this.step = step;
     gl.bindVertexArray(this.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
-    for (const [location, size, type, normalized, offset, divisor] of this.attributes) {
+    for (const [location, size, type, normalized, offset, divisor] of attributes) {
       gl.enableVertexAttribArray(location);
-      gl.vertexAttribPointer(location, size, type, normalized, this.stride * step, offset);
+      gl.vertexAttribPointer(location, size, type, normalized, stride, offset);
       gl.vertexAttribDivisor(location, divisor ?? 0);
     }
     gl.bindVertexArray(null);
-    return this;
   }
 
   fill(data, usage = this.gl.DYNAMIC_DRAW) {
@@ -127,9 +116,12 @@ export class Floats {
     this.data = larger;
   }
 
-  add(...numbers) {
+  /** As many numbers as an instance has. Thousands a picture: no list is made of them. */
+  add() {
     this.reserve((this.count + 1) * this.perInstance);
-    this.data.set(numbers, this.count++ * this.perInstance);
+    const { data } = this;
+    const begin = this.count++ * this.perInstance;
+    for (let i = 0; i < arguments.length; ++i) data[begin + i] = arguments[i];
   }
 
   view() {

@@ -13,8 +13,9 @@ import { World } from "./world.js";
 const PANEL_PERIOD_MS = 200;
 const ADDRESS_PERIOD_MS = 500;
 const SELECT_PX = 26;
-const SLOW_FRAME_MS = 40; // above it, fewer pixels are drawn
-const FAST_FRAME_MS = 22;
+const SLOW_FRAME_MS = 31; // above it, fewer pixels are drawn
+const FAST_FRAME_MS = 18;
+const SETTLED_FRAME_MS = 25; // taken for the truth after a change
 const COARSEST = 0.5; // share of the screen's pixels along each side
 
 const $ = (id) => document.getElementById(id);
@@ -132,7 +133,7 @@ function resize() {
 }
 
 let fineness = 1;
-let frameMs = 30; // smoothed
+let frameMs = SETTLED_FRAME_MS; // smoothed
 /** A machine without a graphics processor draws fewer pixels rather than fewer pictures. */
 function adaptFineness(ms) {
   if (options.isFine) return;
@@ -141,7 +142,7 @@ function adaptFineness(ms) {
   const next = Math.min(1, Math.max(COARSEST, wanted));
   if (next === fineness) return;
   fineness = next;
-  frameMs = 30;
+  frameMs = SETTLED_FRAME_MS;
   resize();
 }
 

@@ -1,14 +1,11 @@
 // Submaps as textures, each at its latest pose, so that a closed loop moves them. What the scanner saw since the last
 // finished submap is drawn as points until its submap comes.
 import { compose, inverse, multiply, placed, turn } from "./geometry.js";
-import { Vertices } from "./gl.js";
 import { Ground } from "./ground.js";
+import { LivePoints } from "./live_points.js";
 import { Tiles, boundsOf } from "./tiles.js";
 import { withToken } from "./connection.js";
 
-const LIVE_CELL_M = 0.15; // one point is kept of each
-const MOST_LIVE_POINTS = 60000;
-const MOST_LEFT_OUT = 16; // from afar one of at most so many is drawn
 const LEAST_STEP = [0.02, 0.0002]; // m and rad: smaller corrections of a pose are not shown
 const LEAST_GLIDE = [0.5, 0.01]; // m and rad: larger corrections are shown as a motion
 
@@ -20,13 +17,13 @@ export class MapLayer {
     this.tiles = new Tiles(gl, this.ground);
     this.submaps = new Map(); // by id: {path, pose, shownPose, glides, texture, box, bounds, version}
     this.version = 0;
-    this.live = new Map(); // by submap's id: {points, keys, count, vertices, isChanged}
+    this.live = new Map(); // by submap's id: {points, map_from_submap}
     this.map = null;
   }
 
   clear() {
     for (const submap of this.submaps.values()) if (submap.texture) this.gl.deleteTexture(submap.texture);
-    for (const live of this.live.values()) live.vertices.remove();
+    for (const live of this.live.values()) live.points.remove();
     this.tiles.clear();
     this.submaps.clear();
     this.live.clear();
@@ -75,7 +72,7 @@ export class MapLayer {
   }
 
   dropLive(id) {
-    this.live.get(id)?.vertices.remove();
+    this.live.get(id)?.points.remove();
     this.live.delete(id);
   }
 
@@ -83,26 +80,16 @@ export class MapLayer {
   collect(points, pose) {
     if (this.submaps.get(pose.submap)?.texture) return;
     let live = this.live.get(pose.submap);
-    if (!live) {
-      const gl = this.gl;
-      const vertices = new Vertices(gl, 12, [[0, 2, gl.FLOAT, false, 0, 0], [1, 1, gl.FLOAT, false, 8, 0]]);
-      live = { points: new Float32Array(MOST_LIVE_POINTS * 3), keys: new Set(), count: 0, vertices, isChanged: false };
-      this.live.set(pose.submap, live);
-    }
+    if (!live) this.live.set(pose.submap, (live = { points: new LivePoints(this.gl) }));
     live.map_from_submap = compose(compose(pose.map_from_odom, pose.odom_from_base), inverse(pose.submap_from_base));
     const floats = new Float32Array(points.data.buffer);
     const [x, y, heading] = pose.submap_from_base;
     const c = Math.cos(heading), s = Math.sin(heading);
-    for (let i = 0; i < points.count && live.count < MOST_LIVE_POINTS; ++i) {
+    for (let i = 0; i < points.count; ++i) {
       const label = points.data[i * 16 + 12];
       if (label !== 1 && label !== 2) continue;
       const px = floats[i * 4], py = floats[i * 4 + 1];
-      const u = x + c * px - s * py, v = y + s * px + c * py;
-      const key = (Math.round(u / LIVE_CELL_M) * 65536 + Math.round(v / LIVE_CELL_M)) * 4 + label;
-      if (live.keys.has(key)) continue;
-      live.keys.add(key);
-      live.points.set([u, v, label], live.count++ * 3);
-      live.isChanged = true;
+      live.points.add(x + c * px - s * py, y + s * px + c * py, label);
     }
   }
 
@@ -131,15 +118,15 @@ export class MapLayer {
     drawer.draw(shown, matrix, camera, colors, opacity);
   }
 
+  /** diameter: of a point, in pixels of the canvas. */
   drawLive(shapes, matrix, camera, colors, opacity, diameter) {
+    if (opacity.so === 0) return;
+    const metres = (diameter * camera.metresPerPixel() * camera.height) / this.gl.drawingBufferHeight;
+    const tints = { stationary: colors.wall, moving: colors.motion, unknown: colors.wall, unlabelled: colors.wall };
     for (const live of this.live.values()) {
-      if (live.isChanged) live.vertices.fill(live.points.subarray(0, live.count * 3));
-      live.isChanged = false;
       const [x, y, heading] = live.map_from_submap;
       const place = multiply(matrix, placed([x - camera.x, y - camera.y, heading]));
-      const tints = { stationary: colors.wall, moving: colors.motion, unknown: colors.wall, unlabelled: colors.wall };
-      const oneOf = Math.min(MOST_LEFT_OUT, Math.max(1, Math.floor(camera.metresPerPixel() / LIVE_CELL_M))); // from afar they overlap
-      if (opacity.so > 0) shapes.drawPoints(live.vertices.every(oneOf), Math.ceil(live.count / oneOf), place, tints, diameter, 0, opacity.so);
+      live.points.draw(metres, (vertices, count) => shapes.drawPoints(vertices, count, place, tints, diameter, 0, opacity.so));
     }
   }
 }

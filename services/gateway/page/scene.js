@@ -1,5 +1,5 @@
 // Draws the world: ground, maps, lanes, scan, way, graph, tracks and vehicle.
-import { apply, compose, ellipse, multiply, placed, sigmas, simplified } from "./geometry.js";
+import { apply, boundsOfLine, compose, ellipse, meet, multiply, placed, sigmas, simplified } from "./geometry.js";
 import { Vertices } from "./gl.js";
 import { Shapes } from "./shapes.js";
 import { CLASSES, THEMES } from "./theme.js";
@@ -8,7 +8,7 @@ const VEHICLE = { length: 4.2, width: 1.8, height: 1.3 };
 const ELLIPSE_SIGMAS = sigmas(0.95);
 const PREDICTION_S = 1; // of the velocity's arrow
 const LANES_REACH = 4; // times the camera's distance: farther lanes are not drawn
-const LANE_LENGTH_M = 25; // of a piece, at most
+const MOST_LANE_WIDTH_M = 10;
 const LINE_ERROR_PX = 0.5; // of long lines, at most
 const LANE_ARROW_M = 1;
 const LEAST_ARROW_PX = 4;
@@ -24,7 +24,7 @@ export class Scene {
     this.map = makeMap(this.gl);
     this.shapes = new Shapes(this.gl);
     this.scanVertices = new Map(); // by scanner
-    this.simpler = new WeakMap(); // by a long line's points: {most, points}, see polyline()
+    this.simpler = new WeakMap(); // by a long line's points: {most, points, bounds}, see simpleLine()
     world.onScan = (points, pose) => this.map.collect(points, pose);
     world.onGraph = (graph) => this.map.take(graph);
   }
@@ -51,7 +51,7 @@ export class Scene {
     this.scale = gl.drawingBufferHeight / camera.height;
     const { layers } = options;
     this.map.draw(matrix, camera, colors, { free: layers.free, so: layers.so, mo: layers.mo });
-    if (layers.grid > 0) this.shapes.drawGrid(matrix, camera, colors.grid);
+    if (layers.grid > 0) this.drawGrid(matrix, size);
     if (layers.scan > 0) this.drawFans(matrix);
     this.map.drawLive(this.shapes, matrix, camera, colors, { so: layers.so }, this.pointSize(0.16));
     this.shapes.begin(camera.metresPerPixel());
@@ -77,13 +77,24 @@ export class Scene {
     return [x - this.camera.x, y - this.camera.y, heading];
   }
 
-  /** A long line relative to the camera, as fine as it can be seen. The list of its points stays as it is once it was drawn. */
-  polyline(points) {
+  /** {points, bounds} of a long line, as fine as it can be seen. The list of its points stays as it is once it was drawn. */
+  simpleLine(points) {
     const most = 2 ** Math.floor(Math.log2(LINE_ERROR_PX * this.camera.metresPerPixel()));
     let kept = this.simpler.get(points);
-    if (kept?.most !== most) this.simpler.set(points, (kept = { most, points: simplified(points, most) }));
+    if (kept?.most !== most) this.simpler.set(points, (kept = { most, points: simplified(points, most), bounds: boundsOfLine(points) }));
+    return kept;
+  }
+
+  /** The same, relative to the camera. */
+  polyline(points) {
     const { x, y } = this.camera;
-    return kept.points.map((value, i) => value - (i % 2 ? y : x));
+    return this.simpleLine(points).points.map((value, i) => value - (i % 2 ? y : x));
+  }
+
+  drawGrid(matrix, size) {
+    this.shapes.begin(this.camera.metresPerPixel());
+    this.shapes.grid(this.camera, this.colors.grid, this.scale);
+    this.shapes.drawLines(matrix, size);
   }
 
   placeOf(pose) {
@@ -127,10 +138,10 @@ export class Scene {
 
   /** Lanes, cycle lanes and walkways as wide as they are used, fainter where few objects went; an arrow in the middle of each. */
   addLanes(alpha) {
-    const reach = LANES_REACH * this.camera.distance + LANE_LENGTH_M;
+    const seen = this.camera.groundSeen(LANES_REACH * this.camera.distance).map((value, i) => value + (i < 2 ? -MOST_LANE_WIDTH_M : MOST_LANE_WIDTH_M));
     for (const { color: name, directed, width, confidence, points } of this.world.lanes) {
+      if (!meet(this.simpleLine(points).bounds, seen)) continue;
       const middle = 2 * Math.floor(points.length / 4);
-      if (Math.hypot(points[middle] - this.camera.x, points[middle + 1] - this.camera.y) > reach) continue;
       const color = this.colors[name];
       const own = this.polyline(points);
       const width_px = width / this.camera.metresPerPixel();

@@ -1,4 +1,4 @@
-// Lines of constant width in pixels, boxes, points and the ground's grid: what is drawn anew with each picture.
+// Lines of constant width in pixels, boxes and points: what is drawn anew with each picture.
 // All coordinates are relative to the camera's target.
 import { FloatTexture, Floats, Program, Vertices } from "./gl.js";
 
@@ -73,27 +73,19 @@ void main() {
   result = vec4(tint.rgb, 1.0) * tint.a * edge;
 }`;
 
-const GRID_VERTEX = `
-uniform mat4 matrix; uniform float reach; uniform vec2 target; uniform float spacing; out vec2 away; out vec2 cell;
-void main() {
-  away = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-  cell = (away * reach + target) / spacing;
-  gl_Position = matrix * vec4(away * reach, 0.0, 1.0);
-}`;
-// cell: distance from a crossing of two of the bolder lines, every tenth, in squares.
-const GRID_FRAGMENT = `
-in vec2 away; in vec2 cell; uniform vec3 color; out vec4 result;
-void main() {
-  vec2 width = fwidth(cell);
-  vec2 fine = abs(cell - round(cell)), bold = abs(cell - 10.0 * round(0.1 * cell));
-  vec2 strength = max(0.18 * (1.0 - min(fine / width, 1.0)), 0.32 * (1.0 - min(bold / width, 1.0)));
-  float fade = 1.0 - smoothstep(0.09, 1.0, dot(away, away));
-  result = vec4(color, 1.0) * max(strength.x, strength.y) * fade;
-}`;
-
 const FAN_VERTEX = `
 layout(location=0) in vec2 at; uniform mat4 matrix; void main() { gl_Position = matrix * vec4(at, 0.0, 1.0); }`;
 const FAN_FRAGMENT = `uniform vec4 color; out vec4 result; void main() { result = vec4(color.rgb, 1.0) * color.a; }`;
+
+const GRID_LEAST_PX = 40; // between two lines
+const GRID_PIECES = 6; // of a line, on each side, each of one strength
+const GRID_FULL = 0.3; // share of its reach within which it does not fade
+
+/** 1 near the camera's target, 0 at the end of the grid's reach. */
+function fading(away) {
+  const share = Math.max(0, (away - GRID_FULL) / (1 - GRID_FULL));
+  return 1 - share * share * (3 - 2 * share);
+}
 
 export class Shapes {
   constructor(gl) {
@@ -106,7 +98,6 @@ export class Shapes {
     this.boxProgram = new Program(gl, BOX_VERTEX, FLAT_FRAGMENT);
     this.boxVertices = new Vertices(gl, 44, [[0, 3, F, false, 0, 1], [1, 1, F, false, 12, 1], [2, 3, F, false, 16, 1], [3, 4, F, false, 28, 1]]);
     this.pointProgram = new Program(gl, POINT_VERTEX, POINT_FRAGMENT);
-    this.gridProgram = new Program(gl, GRID_VERTEX, GRID_FRAGMENT);
     this.fanProgram = new Program(gl, FAN_VERTEX, FAN_FRAGMENT);
     this.fanVertices = new Vertices(gl, 8, [[0, 2, F, false, 0, 0]]);
     this.noVertices = gl.createVertexArray();
@@ -168,13 +159,24 @@ export class Shapes {
       this.line(to, [to[0] - head * (dx + side * dy), to[1] - head * (dy - side * dx)], z, color, alpha, width);
   }
 
-  drawGrid(matrix, camera, color) {
-    const gl = this.gl;
-    const spacing = 10 ** Math.ceil(Math.log10(camera.metresPerPixel() * 40)) / 1;
+  /** Lines on the ground, every tenth bolder, fainter from afar. Width in pixels. */
+  grid(camera, color, width) {
+    const spacing = 10 ** Math.ceil(Math.log10(camera.metresPerPixel() * GRID_LEAST_PX));
     const reach = camera.distance * 4 + 50;
-    this.gridProgram.use({ matrix, reach, spacing, color, target: [camera.x % (spacing * 10), camera.y % (spacing * 10)] });
-    gl.bindVertexArray(this.noVertices);
-    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    const piece = reach / GRID_PIECES;
+    const [left, bottom, right, top] = camera.groundSeen(reach).map((value, i) => value - (i % 2 ? camera.y : camera.x));
+    const addLines = (first, [from, to], [begin, end], placed) => {
+      for (let index = Math.ceil((first + from) / spacing); index * spacing < first + to; ++index) {
+        const aside = index * spacing - first;
+        const alpha = index % 10 === 0 ? 0.32 : 0.18;
+        for (let along = begin; along < end; along += piece) {
+          const away = Math.hypot(aside, along + piece / 2) / reach;
+          if (away < 1) this.line(placed(aside, along), placed(aside, Math.min(end, along + piece)), 0, color, alpha * fading(away), width);
+        }
+      }
+    };
+    addLines(camera.x, [left, right], [bottom, top], (aside, along) => [aside, along]);
+    addLines(camera.y, [bottom, top], [left, right], (aside, along) => [along, aside]);
   }
 
   drawLines(matrix, size) {

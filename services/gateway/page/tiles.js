@@ -1,6 +1,6 @@
 // The map in squares of the map frame. Each is drawn from the submaps that it shows and kept as a texture until one of them
 // changes, so that a picture costs one layer of pixels however many submaps overlap.
-import { apply } from "./geometry.js";
+import { apply, meet } from "./geometry.js";
 import { Program } from "./gl.js";
 
 const SIDE_PX = 256;
@@ -26,18 +26,6 @@ export function boundsOf({ box: [x, y, width, height], shownPose }) {
   return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
 }
 
-const meet = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
-
-/** Bounds of the ground that the camera sees, in map. */
-function groundSeenBy(camera) {
-  const far = FARTHEST * camera.distance;
-  const corners = [[0, 0], [camera.width, 0], [0, camera.height], [camera.width, camera.height]].map(([px, py]) => camera.ground(px, py));
-  const clamped = (value, centre) => Math.min(centre + far, Math.max(centre - far, value));
-  const xs = corners.flatMap((corner) => (corner ? [clamped(corner[0], camera.x)] : [camera.x - far, camera.x + far]));
-  const ys = corners.flatMap((corner) => (corner ? [clamped(corner[1], camera.y)] : [camera.y - far, camera.y + far]));
-  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
-}
-
 export class Tiles {
   constructor(gl, ground) {
     this.gl = gl;
@@ -56,7 +44,7 @@ export class Tiles {
   /** parts: as for Ground.draw(), with bounds in map and a version that grows with each change. */
   draw(parts, matrix, camera, colors, opacity) {
     const style = JSON.stringify([colors.free, colors.wall, colors.motion, opacity]);
-    const shown = this.squares(parts, groundSeenBy(camera), Math.round(Math.log2((camera.metresPerPixel() * camera.height) / this.gl.drawingBufferHeight)));
+    const shown = this.squares(parts, camera.groundSeen(FARTHEST * camera.distance), Math.round(Math.log2((camera.metresPerPixel() * camera.height) / this.gl.drawingBufferHeight)));
     let drawn = 0;
     for (const square of shown) {
       const stamp = `${style} ${square.parts.length} ${Math.max(...square.parts.map((part) => part.version))}`;
