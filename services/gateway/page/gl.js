@@ -4,19 +4,35 @@ function compile(gl, type, source) {
   const shader = gl.createShader(type);
   gl.shaderSource(shader, `#version 300 es\nprecision highp float;\nprecision highp int;\n${source}`);
   gl.compileShader(shader);
-  if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
   return shader;
 }
 
-/** A program with its uniforms: use({name: number, or list of 2, 3, 4 or 16 numbers}). */
+const compiling = new Set(); // programs
+
+/** Whether all programs can be used without waiting for them. */
+export function areCompiled(gl) {
+  const parallel = gl.getExtension("KHR_parallel_shader_compile");
+  for (const { program } of parallel ? compiling : [])
+    if (!gl.getProgramParameter(program, parallel.COMPLETION_STATUS_KHR)) return false;
+  compiling.clear();
+  return true;
+}
+
+/** A program with its uniforms: use({name: number, or list of 2, 3, 4 or 16 numbers}). It is waited for when it is used first. */
 export class Program {
   constructor(gl, vertex, fragment) {
+    compiling.add(this);
     this.gl = gl;
     this.program = gl.createProgram();
-    gl.attachShader(this.program, compile(gl, gl.VERTEX_SHADER, vertex));
-    gl.attachShader(this.program, compile(gl, gl.FRAGMENT_SHADER, fragment));
+    this.shaders = [compile(gl, gl.VERTEX_SHADER, vertex), compile(gl, gl.FRAGMENT_SHADER, fragment)];
+    for (const shader of this.shaders) gl.attachShader(this.program, shader);
     gl.linkProgram(this.program);
-    if (!gl.getProgramParameter(this.program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(this.program));
+  }
+
+  readUniforms() {
+    const { gl } = this;
+    if (!gl.getProgramParameter(this.program, gl.LINK_STATUS))
+      throw new Error([...this.shaders.map((shader) => gl.getShaderInfoLog(shader)), gl.getProgramInfoLog(this.program)].join("\n"));
     this.uniforms = new Map();
     const count = gl.getProgramParameter(this.program, gl.ACTIVE_UNIFORMS);
     for (let i = 0; i < count; ++i) {
@@ -27,6 +43,7 @@ export class Program {
 
   use(values) {
     const gl = this.gl;
+    if (!this.uniforms) this.readUniforms();
     gl.useProgram(this.program);
     for (const [name, value] of Object.entries(values)) {
       const at = this.uniforms.get(name);

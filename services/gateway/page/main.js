@@ -18,17 +18,17 @@ const FAST_FRAME_MS = 18;
 const SETTLED_FRAME_MS = 25; // taken for the truth after a change
 const COARSEST = 0.5; // share of the screen's pixels along each side
 
+let link = "connecting";
 const $ = (id) => document.getElementById(id);
 const world = new World();
 const camera = new Camera();
 const options = readOptions(camera);
+const connection = new Connection(world.handlers(), (state) => (link = state)); // the first, so that it goes on meanwhile
 const scene = new Scene($("scene"), world, (gl) => new MapLayer(gl, (error) => console.warn(error.message)));
 const labels = new Labels($("labels"), world);
-let link = "connecting";
 let frames = 0;
 let measuredText = "";
 
-const connection = new Connection(world.handlers(), (state) => (link = state));
 const playback = new Playback($("playback"), (name, request) => connection.call(name, request));
 
 function state(now) {
@@ -153,7 +153,7 @@ function frame(now) {
   last = now;
   camera.update(seconds, world.vehicle);
   camera.lastMatrix = camera.matrix();
-  scene.draw(camera, options, seconds);
+  if (scene.isReady) scene.draw(camera, options, seconds);
   labels.draw(camera, options);
   ++frames;
   requestAnimationFrame(frame);

@@ -1,11 +1,13 @@
 // Submaps as textures, each at its latest pose, so that a closed loop moves them. What the scanner saw since the last
-// finished submap is drawn as points until its submap comes.
-import { compose, inverse, multiply, placed, turn } from "./geometry.js";
+// finished submap is shown until its submap comes, see live_points.js.
+import { compose, inverse, meet, multiply, placed, turn } from "./geometry.js";
 import { Ground } from "./ground.js";
-import { LivePoints } from "./live_points.js";
+import { LivePoints, PointPainter } from "./live_points.js";
 import { Tiles, boundsOf } from "./tiles.js";
 import { withToken } from "./connection.js";
 
+const LIVE_REACH = 4; // camera distances: what is farther is not shown
+const SHOWN_A_PICTURE = 3; // submaps whose cells become a texture, some milliseconds each
 const LEAST_STEP = [0.02, 0.0002]; // m and rad: smaller corrections of a pose are not shown
 const LEAST_GLIDE = [0.5, 0.01]; // m and rad: larger corrections are shown as a motion
 
@@ -15,7 +17,9 @@ export class MapLayer {
     this.onError = onError;
     this.ground = new Ground(gl);
     this.tiles = new Tiles(gl, this.ground);
+    this.painter = new PointPainter(gl);
     this.submaps = new Map(); // by id: {path, pose, shownPose, glides, texture, box, bounds, version}
+    this.arrived = []; // cells of submaps that are not shown yet
     this.version = 0;
     this.live = new Map(); // by submap's id: {points, map_from_submap}
     this.map = null;
@@ -26,6 +30,7 @@ export class MapLayer {
     for (const live of this.live.values()) live.points.remove();
     this.tiles.clear();
     this.submaps.clear();
+    this.arrived = [];
     this.live.clear();
   }
 
@@ -50,16 +55,20 @@ export class MapLayer {
       const answer = await fetch(withToken(submap.path));
       if (!answer.ok) throw new Error(`${submap.path}: ${answer.status}`);
       const cells = new Uint8Array(await answer.arrayBuffer());
-      if (this.submaps.get(submap.id) !== entry) return;
-      if (entry.texture) this.gl.deleteTexture(entry.texture);
-      entry.texture = this.texture(cells, submap.columns, submap.rows);
-      entry.box = [...submap.min, submap.columns * submap.cell_size_m, submap.rows * submap.cell_size_m];
-      this.changed(entry);
-      this.dropLive(submap.id);
+      this.arrived.push({ submap, entry, cells });
     } catch (error) {
       this.submaps.delete(submap.id); // the next graph tries again
       this.onError(error);
     }
+  }
+
+  show({ submap, entry, cells }) {
+    if (this.submaps.get(submap.id) !== entry) return; // a newer one is on its way
+    if (entry.texture) this.gl.deleteTexture(entry.texture);
+    entry.texture = this.texture(cells, submap.columns, submap.rows);
+    entry.box = [...submap.min, submap.columns * submap.cell_size_m, submap.rows * submap.cell_size_m];
+    this.changed(entry);
+    this.dropLive(submap.id);
   }
 
   changed(submap) {
@@ -80,7 +89,7 @@ export class MapLayer {
   collect(points, pose) {
     if (this.submaps.get(pose.submap)?.texture) return;
     let live = this.live.get(pose.submap);
-    if (!live) this.live.set(pose.submap, (live = { points: new LivePoints(this.gl) }));
+    if (!live) this.live.set(pose.submap, (live = { points: new LivePoints(this.painter) }));
     live.map_from_submap = compose(compose(pose.map_from_odom, pose.odom_from_base), inverse(pose.submap_from_base));
     const floats = new Float32Array(points.data.buffer);
     const [x, y, heading] = pose.submap_from_base;
@@ -95,6 +104,7 @@ export class MapLayer {
 
   /** Moves shown poses towards the latest ones: a closed loop snaps within half a second, visibly. */
   update(seconds) {
+    for (const arrived of this.arrived.splice(0, SHOWN_A_PICTURE)) this.show(arrived);
     const part = 1 - Math.exp(-seconds * 8);
     for (const submap of this.submaps.values()) {
       const [x, y, heading] = submap.shownPose;
@@ -118,15 +128,13 @@ export class MapLayer {
     drawer.draw(shown, matrix, camera, colors, opacity);
   }
 
-  /** diameter: of a point, in pixels of the canvas. */
-  drawLive(shapes, matrix, camera, colors, opacity, diameter) {
-    if (opacity.so === 0) return;
-    const metres = (diameter * camera.metresPerPixel() * camera.height) / this.gl.drawingBufferHeight;
-    const tints = { stationary: colors.wall, moving: colors.motion, unknown: colors.wall, unlabelled: colors.wall };
-    for (const live of this.live.values()) {
-      const [x, y, heading] = live.map_from_submap;
-      const place = multiply(matrix, placed([x - camera.x, y - camera.y, heading]));
-      live.points.draw(metres, (vertices, count) => shapes.drawPoints(vertices, count, place, tints, diameter, 0, opacity.so));
+  drawLive(matrix, camera, colors, opacity) {
+    const seen = camera.groundSeen(LIVE_REACH * camera.distance);
+    const pixel_m = (camera.metresPerPixel() * camera.height) / this.gl.drawingBufferHeight;
+    for (const { points, map_from_submap } of this.live.values()) {
+      if (points.isEmpty || !meet(boundsOf({ box: points.box, shownPose: map_from_submap }), seen)) continue;
+      const [x, y, heading] = map_from_submap;
+      points.show(multiply(matrix, placed([x - camera.x, y - camera.y, heading])), pixel_m, colors, [opacity.so, opacity.mo]);
     }
   }
 }

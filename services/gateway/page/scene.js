@@ -1,6 +1,6 @@
 // Draws the world: ground, maps, lanes, scan, way, graph, tracks and vehicle.
 import { apply, boundsOfLine, compose, ellipse, meet, multiply, placed, sigmas, simplified } from "./geometry.js";
-import { Vertices } from "./gl.js";
+import { Vertices, areCompiled } from "./gl.js";
 import { Shapes } from "./shapes.js";
 import { CLASSES, THEMES } from "./theme.js";
 
@@ -29,6 +29,11 @@ export class Scene {
     world.onGraph = (graph) => this.map.take(graph);
   }
 
+  /** False at first, while the page may do other things. */
+  get isReady() {
+    return areCompiled(this.gl);
+  }
+
   /** options: {theme, layers: {name: opacity}, selected}. */
   draw(camera, options, seconds) {
     const gl = this.gl;
@@ -53,7 +58,7 @@ export class Scene {
     this.map.draw(matrix, camera, colors, { free: layers.free, so: layers.so, mo: layers.mo });
     if (layers.grid > 0) this.drawGrid(matrix, size);
     if (layers.scan > 0) this.drawFans(matrix);
-    this.map.drawLive(this.shapes, matrix, camera, colors, { so: layers.so }, this.pointSize(0.16));
+    this.map.drawLive(matrix, camera, colors, { so: layers.so, mo: layers.mo });
     this.shapes.begin(camera.metresPerPixel());
     if (layers.lanes > 0) this.addLanes(layers.lanes);
     if (layers.graph > 0) this.addGraph(layers.graph);
