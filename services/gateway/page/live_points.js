@@ -2,15 +2,15 @@
 // each point costs a microsecond.
 import { Floats, Program, Vertices } from "./gl.js";
 
-const CELL_M = 0.2;
-const LEVELS = 6; // each with cells twice as wide: up to 6.4 m
-const SIDE_CELLS = 2048; // of the narrowest: 205 m to each side of the submap's origin
+const WIDEST_CELL_M = 0.2; // of the first level
+const LEVELS = 7; // each with cells twice as wide
+const SIDE_CELLS = 2048; // of each picture, 8 MB: at the first level up to 205 m to each side of the submap's origin
 const MOVING = 2; // label of a point; others are stationary
 
 const VERTEX = `
-layout(location=0) in vec2 cell; layout(location=1) in float label; uniform float side; out vec2 evidence;
+layout(location=0) in vec2 cell; layout(location=1) in float label; out vec2 evidence;
 void main() {
-  gl_Position = vec4((cell + 0.5) / (0.5 * side), 0.0, 1.0);
+  gl_Position = vec4((cell + 0.5) / ${SIDE_CELLS / 2}.0, 0.0, 1.0);
   gl_PointSize = 1.0;
   evidence = label == ${MOVING}.0 ? vec2(0.0, 1.0) : vec2(1.0, 0.0);
 }`;
@@ -42,14 +42,14 @@ export class PointPainter {
     this.corners = gl.createVertexArray();
   }
 
-  emptyTexture(side) {
+  emptyTexture() {
     const gl = this.gl;
     const texture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, texture);
-    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RG8, side, side);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RG8, SIDE_CELLS, SIDE_CELLS);
     for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.LINEAR);
     for (const wrap of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, wrap, gl.CLAMP_TO_EDGE);
-    this.into(texture, side, () => {
+    this.into(texture, () => {
       gl.clearColor(0, 0, 0, 1);
       gl.clear(gl.COLOR_BUFFER_BIT);
     });
@@ -57,11 +57,11 @@ export class PointPainter {
   }
 
   /** points: column, row and label of each. */
-  paint(points, texture, side) {
+  paint(points, texture) {
     const gl = this.gl;
     this.vertices.fill(points, gl.STREAM_DRAW);
-    this.into(texture, side, () => {
-      this.program.use({ side });
+    this.into(texture, () => {
+      this.program.use({});
       this.vertices.bind();
       gl.drawArrays(gl.POINTS, 0, points.length / 3);
     });
@@ -76,11 +76,11 @@ export class PointPainter {
     gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
   }
 
-  into(texture, side, draw) {
+  into(texture, draw) {
     const gl = this.gl;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
-    gl.viewport(0, 0, side, side);
+    gl.viewport(0, 0, SIDE_CELLS, SIDE_CELLS);
     gl.disable(gl.BLEND);
     draw();
     gl.enable(gl.BLEND);
@@ -91,55 +91,58 @@ export class PointPainter {
 
 /** Points of one submap. */
 export class LivePoints {
-  constructor(painter) {
+  /** cell_m: of finished submaps, if there are any. */
+  constructor(painter, cell_m = WIDEST_CELL_M) {
     this.painter = painter;
-    this.levels = Array.from({ length: LEVELS }, () => ({ taken: new Set(), points: new Floats(3), painted: 0, texture: null }));
-    this.bounds = [Infinity, Infinity, -Infinity, -Infinity]; // of the points, in cells of the first level
+    this.levels = Array.from({ length: LEVELS }, (_, i) => ({
+      cell_m: Math.min(cell_m, WIDEST_CELL_M) * 2 ** i, taken: new Set(), points: new Floats(3), bounds: [Infinity, Infinity, -Infinity, -Infinity], painted: 0, texture: null,
+    }));
   }
 
   /** x, y in the submap. */
   add(x, y, label) {
-    const column = Math.floor(x / CELL_M), row = Math.floor(y / CELL_M);
-    if (Math.max(Math.abs(column), Math.abs(row)) >= SIDE_CELLS / 2) return;
-    const [left, bottom, right, top] = this.bounds;
-    if (column < left || row < bottom || column >= right || row >= top)
-      this.bounds = [Math.min(left, column), Math.min(bottom, row), Math.max(right, column + 1), Math.max(top, row + 1)];
-    for (let i = 0; i < LEVELS; ++i) {
-      const { taken, points } = this.levels[i];
-      const cell = [column >> i, row >> i];
-      const key = (cell[0] * SIDE_CELLS + cell[1]) * 4 + label;
+    for (const { cell_m, taken, points, bounds } of this.levels) {
+      const column = Math.floor(x / cell_m), row = Math.floor(y / cell_m);
+      if (Math.max(Math.abs(column), Math.abs(row)) >= SIDE_CELLS / 2) continue;
+      const key = (column * SIDE_CELLS + row) * 4 + label;
       if (taken.has(key)) return; // so it is in the wider ones
       taken.add(key);
-      points.add(cell[0], cell[1], label);
+      points.add(column, row, label);
+      bounds[0] = Math.min(bounds[0], column);
+      bounds[1] = Math.min(bounds[1], row);
+      bounds[2] = Math.max(bounds[2], column + 1);
+      bounds[3] = Math.max(bounds[3], row + 1);
     }
   }
 
   get isEmpty() {
-    return this.levels[0].points.count === 0;
+    return this.levels.at(-1).points.count === 0;
   }
 
   /** [x, y, width, height] of what was seen, in the submap. */
   get box() {
-    const [left, bottom, right, top] = this.bounds;
-    return [left, bottom, right - left, top - bottom].map((cells) => cells * CELL_M);
+    return this.boxOf(this.levels.at(-1));
   }
 
-  /** colors: {wall, motion}; opacity: of both. */
+  boxOf({ bounds: [left, bottom, right, top], cell_m }) {
+    return [left, bottom, right - left, top - bottom].map((cells) => cells * cell_m);
+  }
+
+  /** The picture whose cells are at least as wide as a pixel of so many metres. colors: {wall, motion}; opacity: of both. */
   show(matrix, pixel_m, colors, opacity) {
-    const { box } = this;
-    const source = box.map((metres, i) => metres / (CELL_M * SIDE_CELLS) + (i < 2 ? 0.5 : 0));
-    this.painter.show(this.texture(pixel_m), { matrix, box, source, wall: colors.wall, motion: colors.motion, opacity });
+    const wanted = this.levels.find(({ cell_m }) => cell_m >= pixel_m) ?? this.levels.at(-1);
+    for (const level of this.levels) if (level !== wanted) this.forget(level);
+    if (wanted.points.count === 0) return;
+    this.paint(wanted);
+    const box = this.boxOf(wanted);
+    const source = box.map((metres, i) => metres / (wanted.cell_m * SIDE_CELLS) + (i < 2 ? 0.5 : 0));
+    this.painter.show(wanted.texture, { matrix, box, source, wall: colors.wall, motion: colors.motion, opacity });
   }
 
-  /** The picture whose cells are at least as wide as a pixel of so many metres. */
-  texture(pixel_m) {
-    const wanted = Math.min(LEVELS - 1, Math.max(0, Math.ceil(Math.log2(pixel_m / CELL_M))));
-    for (const level of this.levels) if (level !== this.levels[wanted]) this.forget(level);
-    const level = this.levels[wanted], side = SIDE_CELLS >> wanted;
-    level.texture ??= this.painter.emptyTexture(side);
-    if (level.painted < level.points.count) this.painter.paint(level.points.view().subarray(3 * level.painted), level.texture, side);
+  paint(level) {
+    level.texture ??= this.painter.emptyTexture();
+    if (level.painted < level.points.count) this.painter.paint(level.points.view().subarray(3 * level.painted), level.texture);
     level.painted = level.points.count;
-    return level.texture;
   }
 
   forget(level) {

@@ -66,6 +66,7 @@ export class MapLayer {
     if (this.submaps.get(submap.id) !== entry) return; // a newer one is on its way
     if (entry.texture) this.gl.deleteTexture(entry.texture);
     entry.texture = this.texture(cells, submap.columns, submap.rows);
+    this.cell_m = submap.cell_size_m;
     entry.box = [...submap.min, submap.columns * submap.cell_size_m, submap.rows * submap.cell_size_m];
     this.changed(entry);
     this.dropLive(submap.id);
@@ -89,7 +90,7 @@ export class MapLayer {
   collect(points, pose) {
     if (this.submaps.get(pose.submap)?.texture) return;
     let live = this.live.get(pose.submap);
-    if (!live) this.live.set(pose.submap, (live = { points: new LivePoints(this.painter) }));
+    if (!live) this.live.set(pose.submap, (live = { points: new LivePoints(this.painter, this.cell_m) }));
     live.map_from_submap = compose(compose(pose.map_from_odom, pose.odom_from_base), inverse(pose.submap_from_base));
     const floats = new Float32Array(points.data.buffer);
     const [x, y, heading] = pose.submap_from_base;
