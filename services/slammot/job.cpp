@@ -121,7 +121,7 @@ void set_initial_odometry_scale(double factor, localization::LocalizerConfig& co
 
 void add_job_options(CLI::App& command, JobOptions& options) {
   command
-      .add_option("--input", options.input,
+      .add_option("--input,log", options.input,
                   "Recorded drive: a CARMEN or DP-SLAM log, plain or .gz, or a ROS bag (.bag, "
                   ".mcap, .db3, or the folder)")
       ->type_name("FILE");

@@ -240,6 +240,15 @@ TEST_F(RunCommand, IteratesScansWithMovingPointsAndCountsEachOnce) {
   EXPECT_NE(read(folder_ / "three" / "online.tum"), read(folder_ / "one" / "online.tum"));
 }
 
+TEST_F(RunCommand, TakesTheLogWithoutAnOption) {
+  write(room_log(60));
+  ASSERT_EQ(run({"--no-report"}).exit_code, kExitDone);
+  const Outcome outcome =
+      call({"run", log_.string(), "--output", (folder_ / "second").string(), "--no-report"});
+  ASSERT_EQ(outcome.exit_code, kExitDone) << outcome.standard_error;
+  EXPECT_EQ(read(folder_ / "second" / "online.tum"), read(folder_ / "out" / "online.tum"));
+}
+
 TEST_F(RunCommand, RejectsZeroIterationsAndBenchHasNone) {
   write(room_log(5));
   EXPECT_EQ(run({"--iterations", "0"}).exit_code, kExitUsage);
