@@ -7,6 +7,12 @@ function compile(gl, type, source) {
   return shader;
 }
 
+/** Whether pictures are drawn without a graphics processor. */
+export function isDrawnBySoftware(gl) {
+  const names = gl.getExtension("WEBGL_debug_renderer_info");
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+}
+
 const compiling = new Set(); // programs
 
 /** Whether all programs can be used without waiting for them. */

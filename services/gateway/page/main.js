@@ -1,6 +1,7 @@
 // Joins connection, world, picture and panels.
 import { Camera } from "./camera.js";
 import { Connection } from "./connection.js";
+import { gl } from "./context.js";
 import { Input, tiltOf } from "./input.js";
 import { Labels } from "./labels.js";
 import { MapLayer } from "./map_layer.js";
@@ -24,7 +25,7 @@ const world = new World();
 const camera = new Camera();
 const options = readOptions(camera);
 const connection = new Connection(world.handlers(), (state) => (link = state)); // the first, so that it goes on meanwhile
-const scene = new Scene($("scene"), world, (gl) => new MapLayer(gl, (error) => console.warn(error.message)));
+const scene = new Scene(gl, world, (gl) => new MapLayer(gl, (error) => console.warn(error.message)));
 const labels = new Labels($("labels"), world);
 let frames = 0;
 let measuredText = "";
@@ -132,7 +133,7 @@ function resize() {
   $("scene").height = Math.round(innerHeight * ratio);
 }
 
-let fineness = 1;
+let fineness = scene.isSlow && !options.isFine ? COARSEST : 1;
 let frameMs = SETTLED_FRAME_MS; // smoothed
 /** A machine without a graphics processor draws fewer pixels rather than fewer pictures. */
 function adaptFineness(ms) {

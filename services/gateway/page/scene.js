@@ -1,6 +1,6 @@
 // Draws the world: ground, maps, lanes, scan, way, graph, tracks and vehicle.
 import { apply, boundsOfLine, compose, ellipse, meet, multiply, placed, sigmas, simplified } from "./geometry.js";
-import { Vertices, areCompiled } from "./gl.js";
+import { Vertices, areCompiled, isDrawnBySoftware } from "./gl.js";
 import { Shapes } from "./shapes.js";
 import { CLASSES, THEMES } from "./theme.js";
 
@@ -17,9 +17,10 @@ const CONTOUR_GAP_M = 1.2; // between its points nothing was seen
 
 export class Scene {
   /** makeMap(gl): the layer below everything; it has update(), draw() and drawLive(), see map_layer.js. */
-  constructor(canvas, world, makeMap) {
-    this.gl = canvas.getContext("webgl2", { antialias: false, alpha: false, depth: false });
-    if (!this.gl) throw new Error("this browser has no WebGL 2");
+  constructor(gl, world, makeMap) {
+    this.gl = gl;
+    if (!gl) throw new Error("this browser has no WebGL 2");
+    this.isSlow = isDrawnBySoftware(this.gl);
     this.world = world;
     this.map = makeMap(this.gl);
     this.shapes = new Shapes(this.gl);
