@@ -63,6 +63,25 @@ export class Program {
   }
 }
 
+/** Of a rectangle on the ground that shows a part of a texture: uniforms matrix, box and source, each [x, y, width, height]. */
+export const PART_VERTEX = `
+uniform mat4 matrix; uniform vec4 box; uniform vec4 source; out vec2 at;
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  at = source.xy + corner * source.zw;
+  gl_Position = matrix * vec4(box.xy + corner * box.zw, 0.0, 1.0);
+}`;
+
+/** A square texture to draw into, interpolated where it is shown. */
+export function emptyTexture(gl, format, side) {
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, format, side, side);
+  for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.LINEAR);
+  for (const wrap of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, wrap, gl.CLAMP_TO_EDGE);
+  return texture;
+}
+
 /** Vertices: a buffer and the layout of its attributes, [[location, size, type, normalized, offset, divisor]]. */
 export class Vertices {
   constructor(gl, stride, attributes) {

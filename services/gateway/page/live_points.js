@@ -1,6 +1,6 @@
 // What was seen since the last finished submap, as pictures of cells of several widths, one of each width that is looked at. A point is drawn once into it, and not in each picture of the page: without a graphics processor
 // each point costs a microsecond.
-import { Floats, Program, Vertices } from "./gl.js";
+import { Floats, PART_VERTEX, Program, Vertices, emptyTexture } from "./gl.js";
 
 const WIDEST_CELL_M = 0.2; // of the first level
 const LEVELS = 7; // each with cells twice as wide
@@ -16,13 +16,6 @@ void main() {
 }`;
 const FRAGMENT = `in vec2 evidence; out vec4 result; void main() { result = vec4(evidence, 0.0, 1.0); }`;
 
-const SHOWN_VERTEX = `
-uniform mat4 matrix; uniform vec4 box; uniform vec4 source; out vec2 at;
-void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  at = source.xy + corner * source.zw;
-  gl_Position = matrix * vec4(box.xy + corner * box.zw, 0.0, 1.0);
-}`;
 // Red: share of stationary objects, green: of motion.
 const SHOWN_FRAGMENT = `
 in vec2 at; uniform sampler2D cells; uniform vec3 wall; uniform vec3 motion; uniform vec2 opacity; out vec4 result;
@@ -38,17 +31,13 @@ export class PointPainter {
     this.program = new Program(gl, VERTEX, FRAGMENT);
     this.vertices = new Vertices(gl, 12, [[0, 2, gl.FLOAT, false, 0, 0], [1, 1, gl.FLOAT, false, 8, 0]]);
     this.target = gl.createFramebuffer();
-    this.shown = new Program(gl, SHOWN_VERTEX, SHOWN_FRAGMENT);
+    this.shown = new Program(gl, PART_VERTEX, SHOWN_FRAGMENT);
     this.corners = gl.createVertexArray();
   }
 
   emptyTexture() {
     const gl = this.gl;
-    const texture = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RG8, SIDE_CELLS, SIDE_CELLS);
-    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.LINEAR);
-    for (const wrap of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, wrap, gl.CLAMP_TO_EDGE);
+    const texture = emptyTexture(gl, gl.RG8, SIDE_CELLS);
     this.into(texture, () => {
       gl.clearColor(0, 0, 0, 1);
       gl.clear(gl.COLOR_BUFFER_BIT);

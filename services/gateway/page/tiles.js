@@ -1,7 +1,7 @@
 // The map in squares of the map frame. Each is drawn from the submaps that it shows and kept as a texture until one of them
 // changes, so that a picture costs one layer of pixels however many submaps overlap.
 import { apply, meet } from "./geometry.js";
-import { Program } from "./gl.js";
+import { PART_VERTEX, Program, emptyTexture } from "./gl.js";
 
 const SIDE_PX = 256;
 const MOST_KEPT = 256; // 64 MB
@@ -10,13 +10,6 @@ const DRAWN_A_PICTURE = 2;
 const COARSER_LEVELS = 4; // among which one stands in for a square that is not drawn yet
 const FARTHEST = 3; // in camera distances, of a tilted view
 
-const VERTEX = `
-uniform mat4 matrix; uniform vec4 box; uniform vec4 source; out vec2 at;
-void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  at = source.xy + corner * source.zw;
-  gl_Position = matrix * vec4(box.xy + corner * box.zw, 0.0, 1.0);
-}`;
 const FRAGMENT = `in vec2 at; uniform sampler2D picture; out vec4 result; void main() { result = texture(picture, at); }`;
 
 /** [least x, least y, greatest x, greatest y] in map of a part as Ground.draw() takes it. */
@@ -30,7 +23,7 @@ export class Tiles {
   constructor(gl, ground) {
     this.gl = gl;
     this.ground = ground;
-    this.program = new Program(gl, VERTEX, FRAGMENT);
+    this.program = new Program(gl, PART_VERTEX, FRAGMENT);
     this.array = gl.createVertexArray();
     this.target = gl.createFramebuffer();
     this.kept = new Map(); // by "level:column:row": {texture, stamp}, the least recently shown first
@@ -77,19 +70,9 @@ export class Tiles {
     }
   }
 
-  emptyTexture() {
-    const gl = this.gl;
-    const texture = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA8, SIDE_PX, SIDE_PX);
-    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.LINEAR);
-    for (const wrap of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, wrap, gl.CLAMP_TO_EDGE);
-    return texture;
-  }
-
   render({ key, box, side, parts }, stamp, colors, opacity) {
     const gl = this.gl;
-    const texture = this.kept.get(key)?.texture ?? this.emptyTexture();
+    const texture = this.kept.get(key)?.texture ?? emptyTexture(gl, gl.RGBA8, SIDE_PX);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
     gl.viewport(0, 0, SIDE_PX, SIDE_PX);

@@ -72,7 +72,7 @@ TEST_F(PublishedMap, ServesEachSubmapOfItsGraphInItsLastVersion) {
   EXPECT_NE(audience_.served_paths(), first);
 }
 
-TEST_F(PublishedMap, DoesNotWaitForSubmapsThatAreCompressed) {
+TEST_F(PublishedMap, ServesWhatArrivesWhileOthersAreCompressed) {
   take(1, 20);
   publisher_.publish({});  // begins
   take(2, 20);
