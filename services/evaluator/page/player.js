@@ -1,5 +1,6 @@
 // Plays the drive of a report. Several pages side by side show the same moment from the same place.
 import { Camera } from "./camera.js";
+import { gl } from "./context.js";
 import { Input, tiltOf } from "./input.js";
 import { Labels } from "./labels.js";
 import { LAYERS, readOptions } from "./options.js";
@@ -26,7 +27,7 @@ class Player {
     this.options = readOptions(this.camera);
     if (!location.hash.includes("l=")) this.options.layers.graph = 0.8;
     this.isDirty = true;
-    this.scene = new ReplayScene($("scene"), this.replay, () => (this.isDirty = true));
+    this.scene = new ReplayScene(gl, this.replay, () => (this.isDirty = true));
     this.labels = new Labels($("labels"), this.replay);
     this.timeline = new Timeline($("timeline"), recording, (time) => this.seek(time));
     this.isPlaying = false;

@@ -29,8 +29,8 @@ class PictureLayer {
 }
 
 export class ReplayScene extends Scene {
-  constructor(canvas, replay, onLoad) {
-    super(canvas, replay, (gl) => new PictureLayer(gl, replay.recording.header.map, onLoad));
+  constructor(gl, replay, onLoad) {
+    super(gl, replay, () => new PictureLayer(gl, replay.recording.header.map, onLoad));
   }
 
   addWay(alpha) {
