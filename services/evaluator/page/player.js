@@ -253,7 +253,7 @@ class Player {
       this.isDirty = false;
       camera.lastMatrix = camera.matrix();
       this.scene.draw(camera, this.options, seconds);
-      this.labels.draw(camera, this.options, devicePixelRatio || 1);
+      this.labels.draw(camera, this.options);
       this.timeline.draw(this.replay.time, THEMES[this.options.theme]);
       this.tellOthers();
     }

@@ -61,6 +61,8 @@ async def test_time(page):
 async def test_track(page):
     await page.value(f"slammotReport.seek({BUSIEST})")
     await asyncio.sleep(1.5)  # the camera follows smoothly
+    labels = "[...document.querySelectorAll('#labels p')].filter(l => l.style.visibility !== 'hidden' && l.getBoundingClientRect().width > 0).length"
+    check(await page.value(labels) > 0, "tracks have labels")
     at = await page.value(
         "(() => { const p = slammotReport, c = p.camera; return [...p.replay.tracks.values()].map(t => c.project(...t.position, t.height / 2, c.lastMatrix))"
         ".find(([x, y]) => x > 40 && x < 1000 && y > 80 && y < 500); })()")
