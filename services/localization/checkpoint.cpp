@@ -10,7 +10,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x736c616d6d6f746e;  // "slammotn": the last letter counts the forms
+constexpr std::uint64_t kMark = 0x736c616d6d6f746f;  // "slammoto": the last letter counts the forms
                                                      // of a checkpoint
 constexpr double kFastestRestored = 1e3;  // m/s or rad/s: no vehicle was faster when the checkpoint
                                           // was made
@@ -102,6 +102,8 @@ void visit_pose(State& pose, Visitor visit) {
   visit(pose.prediction.applies_pivot);
   visit(pose.prediction.innovations);
   pose.prediction.turn_noise.visit(visit);
+  pose.prediction.slip.visit(visit);
+  pose.prediction.speed_change.visit(visit);
   visit_belief(pose.prediction.belief, visit);
   visit_monitor(pose.monitor, visit);
   visit(pose.covariance.factors.of_axis);
@@ -207,6 +209,7 @@ bool is_sound(const PoseState& pose) {
   return is_sound(prediction.estimate) && is_sound(prediction.with_stamp_offset) &&
          is_sound(prediction.with_pivot) && prediction.innovations.turns.is_sound() &&
          prediction.innovations.ways.is_sound() && prediction.turn_noise.is_sound() &&
+         prediction.slip.is_sound() && prediction.speed_change.is_sound() &&
          is_sound(*prediction.last) && is_sound(prediction.belief) && is_sound(pose.monitor) &&
          is_sound(pose.covariance) && std::isfinite(pose.sweep_factor.value) &&
          pose.sweep_factor.variance >= 0.0;

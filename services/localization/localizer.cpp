@@ -77,7 +77,7 @@ flow::LocalizedScan Localizer::describe_placed(const sensing::LaserScan& scan,
                                                flow::LocalizedScan workspace) {
   const OdometryPrediction::LastScan& last = *prediction().last();
   return describe_and_remember(scan, {prediction().estimate(), last.speed_mps, last.yaw_rate_radps},
-                               estimator_.monitor().admission(), std::move(workspace));
+                               estimator_.admission(), std::move(workspace));
 }
 
 flow::LocalizedScan Localizer::describe_and_remember(const sensing::LaserScan& scan,

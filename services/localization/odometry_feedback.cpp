@@ -17,7 +17,8 @@ constexpr double kCertainSigmas = 2.5;  // stamped right, it is never more than 
 /// True if the step was made by wheels, and the match was free to contradict them.
 bool tells_of_calibration(const Step& step, const ScanMatch& match) {
   return step.explanation == sensing::StepExplanation::kWheels && step.is_by_wheels() &&
-         !step.wheels.is_standing && match.is_believed && !match.was_sampled && !match.is_lost;
+         !step.wheels.is_standing && match.is_believed && !match.was_sampled && !match.is_lost &&
+         !step.slip.is_active();
 }
 
 /// Another estimate of the same motion after the step, with the same match.
@@ -46,6 +47,7 @@ void OdometryPrediction::observe(const Step& step, const ScanMatch& match) {
   learn_pivot(step, match);
   doubt_calibration(step, match);
   renew_map(matched_step(step, match), match);
+  observe_slip(step, match);
   state_.last = last_after(step, match);
 }
 
@@ -295,6 +297,7 @@ OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step,
 void OdometryPrediction::begin_map_here() {
   state_.estimate.covariance.topRows<3>().setZero();
   state_.estimate.covariance.leftCols<3>().setZero();
+  state_.slip = {};
 }
 
 }  // namespace slammot::localization

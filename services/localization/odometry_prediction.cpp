@@ -167,6 +167,7 @@ sensing::MotionEstimate OdometryPrediction::doubted_velocity(const Pose2& by_whe
 }
 
 void OdometryPrediction::follow_wheels(const Pose2& by_wheels, Step& step) const {
+  if (state_.slip.is_active()) return follow_slip(by_wheels, step);
   step.source = StepSource::kOdometry;
   step.wheels.stood_s =
       is_still(by_wheels, step.duration_s) ? state_.last->stood_s + step.duration_s : 0.0;
@@ -258,6 +259,7 @@ std::optional<Step> OdometryPrediction::with_doubted_wheels(const Step& by_wheel
 }
 
 StepMixture OdometryPrediction::explanations(const Step& by_wheels) const {
+  if (by_wheels.slip.is_active()) return slip_hypotheses(by_wheels);
   const StepExplanations alternatives{state_.estimate, state_.belief, config_,
                                       motion_of_one_clock_};
   if (by_wheels.source == StepSource::kReach) {

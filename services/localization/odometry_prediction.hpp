@@ -14,6 +14,8 @@
 #include "common/sensing/odometry_buffer.hpp"
 #include "common/sensing/stamp_guard.hpp"
 #include "common/sensing/turn_noise.hpp"
+#include "common/sensing/wheel_slip.hpp"
+#include "common/sensing/wheel_speed_change.hpp"
 #include "services/localization/localizer_config.hpp"
 #include "services/localization/scan_match.hpp"
 
@@ -68,6 +70,7 @@ struct Step {
                                                                              ///< the mixture of
                                                                              ///< predictions this
                                                                              ///< is.
+  sensing::WheelSlip slip;  ///< Hypotheses of the wheels' slip at the scan at hand, if any.
 
   /// Whether odometry spoke of the step and was no jump, believed or not.
   bool has_wheels() const { return is_by_wheels() || wheels.are_overruled; }
@@ -78,6 +81,7 @@ struct Step {
 /// The explanations of one step, odometry as calibrated first. Holds them without allocation.
 class StepMixture {
  public:
+  StepMixture() = default;
   StepMixture(std::initializer_list<Step> steps) {
     for (const Step& step : steps) push_back(step);
   }
@@ -144,6 +148,8 @@ class OdometryPrediction {
     bool applies_pivot = false;
     Innovations innovations;
     sensing::TurnNoise turn_noise;
+    sensing::WheelSlip slip;
+    sensing::WheelSpeedChange speed_change;
     std::optional<LastScan> last;  ///< None before the first scan.
     sensing::OdometryBelief belief;
   };
@@ -249,6 +255,9 @@ class OdometryPrediction {
   sensing::MotionEstimate moved_by_wheels(const geometry::Pose2& by_wheels, std::int64_t stamp_ns,
                                           double duration_s) const;
   void follow_wheels(const geometry::Pose2& by_wheels, Step& step) const;
+  void follow_slip(const geometry::Pose2& by_wheels, Step& step) const;
+  StepMixture slip_hypotheses(const Step& by_wheels) const;
+  void observe_slip(const Step& step, const ScanMatch& match);
   void go_on_at_velocity(const sensing::MotionEstimate& before, Step& step) const;
   void go_on_without_wheels(Step& step) const;
   void adopt_wheel_factors();

@@ -38,6 +38,10 @@ std::optional<geometry::Vector2> OdometryWatch::compare(const Placed& placed,
                                                         OdometryPrediction& prediction) {
   const ScanMatch& match = placed.match;
   if (!match.is_believed || match.is_lost || !config_.belief.enabled) return std::nullopt;
+  if (placed.step.slip.is_active()) {
+    keyframes_.resume({});  // its way by odometry has the slip in it
+    return std::nullopt;
+  }
   const auto comparison = keyframes_.observe({placed.step, match.odom_from_base.pose, placed.points,
                                               placed.scan.scanner.scanner_id, prediction});
   if (!comparison) return std::nullopt;

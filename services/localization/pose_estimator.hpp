@@ -65,6 +65,11 @@ class PoseEstimator {
   const geometry::Pose2& odom_from_base() const { return prediction_.estimate().odom_from_base; }
   const LocalizationMonitor& monitor() const { return monitor_; }
   const ScanPoints& points() const { return points_; }  ///< Of the scan at hand.
+  /// What may become of the scan at hand.
+  MapAdmission admission() const {
+    return prediction_.state().slip.keeps_map_as_it_is() ? MapAdmission::kWithheld
+                                                         : monitor_.admission();
+  }
   const SweepCorrection& sweep() const { return sweep_; }
   PublishedPose published(const sensing::MotionEstimate& estimate) const {
     return covariance_.published(estimate, monitor_.is_lost());

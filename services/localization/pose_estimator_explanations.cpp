@@ -2,6 +2,7 @@
 
 #include "services/localization/map_agreement.hpp"
 #include "services/localization/pose_estimator.hpp"
+#include "services/localization/slip_match.hpp"
 
 namespace slammot::localization {
 
@@ -19,11 +20,11 @@ std::optional<ExplainedStep> PoseEstimator::explain(const ScanToPlace& placed,
                              by_wheels.duration_s > 0.0 && matcher_.can_match(points_.matched());
   if (!may_be_judged) return std::nullopt;
   const auto take = [&](const Step& step) { take_points(placed, step); };
-  ExplainedStep explained =
-      mixture_.explain({prediction_.explanations(by_wheels), prediction_.weights(),
-                        prediction_.state().belief.usual_share, prediction_.state().belief.steps,
-                        points_, placed.submaps.map(), take},
-                       matcher_);
+  const StepToExplain scan{prediction_.explanations(by_wheels), prediction_.weights(),
+                           prediction_.state().belief.usual_share,
+                           prediction_.state().belief.steps, points_, placed.submaps.map(), take};
+  ExplainedStep explained = by_wheels.slip.is_active() ? explain_slip(scan, config_, matcher_)
+                                                       : mixture_.explain(scan, matcher_);
   prediction_.weigh(explained.weights);
   placed.counters.matches.searches += explained.searches;
   if (explained.step.explanation == sensing::StepExplanation::kRoughWheels)
