@@ -89,7 +89,7 @@ void WheelSlip::keep_only(std::size_t kept) {
 WheelSlip WheelSlip::changed(const UncertainPose2& odom_from_base, double by_mps,
                              double within_s) const {
   constexpr double kLeastSigma_mps = 0.3;
-  constexpr double kSigmaShare = 0.4;
+  constexpr double kSigmaShare = 0.2;
   WheelSlip after;
   SlipHypothesis before;
   if (is_active()) before = hypotheses_[likeliest()];

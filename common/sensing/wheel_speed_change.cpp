@@ -17,52 +17,68 @@ bool WheelSpeedChange::is_sound() const {
          });
 }
 
-/// Of the mean of the last steps from the line; zero where it is within the noise of the steps, as
-/// far as the line shows that.
-double WheelSpeedChange::departure_mps() const {
-  constexpr double kSigmas = 4.0;
-  double mean_s = 0.0;
-  double mean_mps = 0.0;
+WheelSpeedChange::Line WheelSpeedChange::line_before() const {
+  Line line;
   for (std::size_t i = 0; i < kBefore; ++i) {
-    mean_s += steps_[i].middle_s / kBefore;
-    mean_mps += steps_[i].speed_mps / kBefore;
+    line.middle_s += steps_[i].middle_s / kBefore;
+    line.speed_mps += steps_[i].speed_mps / kBefore;
   }
   double of_time_s2 = 0.0;
   double of_both_m = 0.0;
   double of_speed_m2ps2 = 0.0;
   for (std::size_t i = 0; i < kBefore; ++i) {
-    const double apart_s = steps_[i].middle_s - mean_s;
-    const double apart_mps = steps_[i].speed_mps - mean_mps;
+    const double apart_s = steps_[i].middle_s - line.middle_s;
+    const double apart_mps = steps_[i].speed_mps - line.speed_mps;
     of_time_s2 += squared(apart_s);
     of_both_m += apart_s * apart_mps;
     of_speed_m2ps2 += squared(apart_mps);
   }
-  if (of_time_s2 <= 0.0) return 0.0;
-  const double slope_mps2 = of_both_m / of_time_s2;
-  const double noise_m2ps2 =
-      std::max(0.0, of_speed_m2ps2 - slope_mps2 * of_both_m) / (kBefore - 2);
-  double last_s = 0.0;
-  double last_mps = 0.0;
-  for (std::size_t i = kBefore; i < kMost; ++i) {
-    last_s += steps_[i].middle_s / kLast;
-    last_mps += steps_[i].speed_mps / kLast;
-  }
-  const double variance_m2ps2 =
-      noise_m2ps2 * (1.0 / kLast + 1.0 / kBefore + squared(last_s - mean_s) / of_time_s2);
-  const double departure_mps = last_mps - mean_mps - slope_mps2 * (last_s - mean_s);
-  return squared(departure_mps) > squared(kSigmas) * variance_m2ps2 ? departure_mps : 0.0;
+  if (of_time_s2 <= 0.0) return line;
+  line.slope_mps2 = of_both_m / of_time_s2;
+  line.noise_m2ps2 =
+      std::max(0.0, of_speed_m2ps2 - line.slope_mps2 * of_both_m) / (kBefore - 2);
+  return line;
+}
+
+/// Mean speed of kLast steps from the given one on.
+double WheelSpeedChange::mean_mps(std::size_t first) const {
+  double mean = 0.0;
+  for (std::size_t i = first; i < first + kLast; ++i) mean += steps_[i].speed_mps / kLast;
+  return mean;
+}
+
+/// A vehicle that begins to brake or comes to a stand leaves the line, or the speed that it had, but
+/// not both so far: the smaller departure counts.
+std::optional<double> WheelSpeedChange::change_mps() const {
+  constexpr double kLeast_mps = 0.53;
+  constexpr double kLeastOfStep_mps = 0.3;
+  constexpr double kSigmas = 2.2;
+  const Line line = line_before();
+  const double last_mps = mean_mps(kBefore);
+  const double from_line_mps = last_mps - line.at(steps_[kBefore + kLast / 2].middle_s);
+  const double from_before_mps = last_mps - mean_mps(kBefore - kLast);
+  const double least_mps = std::max(kLeast_mps, kSigmas * std::sqrt(line.noise_m2ps2));
+  if (from_line_mps * from_before_mps <= 0.0 || std::abs(from_line_mps) < least_mps ||
+      std::abs(from_before_mps) < least_mps)
+    return std::nullopt;
+  const auto departure_mps = [&](const Step& step) {
+    return step.speed_mps - line.at(step.middle_s);
+  };
+  const double newest_mps = departure_mps(steps_[kMost - 1]);
+  const double sign = std::copysign(1.0, from_line_mps);
+  if (sign * newest_mps < kLeastOfStep_mps || sign * departure_mps(steps_[kMost - 2]) < kLeastOfStep_mps)
+    return std::nullopt;
+  return newest_mps;
 }
 
 std::optional<double> WheelSpeedChange::observe(double speed_mps, double duration_s) {
-  constexpr double kLeast_mps = 0.5;
   std::ranges::rotate(steps_, steps_.begin() + 1);
   for (Step& step : steps_) step.middle_s -= duration_s;
   steps_.back() = {.middle_s = -0.5 * duration_s, .speed_mps = speed_mps};
   size_ = std::min(size_ + 1.0, static_cast<double>(kMost));
   if (size_ < static_cast<double>(kMost)) return std::nullopt;
-  const double changed_mps = departure_mps();
-  if (std::abs(changed_mps) < kLeast_mps) return std::nullopt;
-  begin_anew();
+  const std::optional<double> changed_mps = change_mps();
+  if (changed_mps) begin_anew();
   return changed_mps;
 }
 

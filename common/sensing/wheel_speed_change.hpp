@@ -40,7 +40,18 @@ class WheelSpeedChange {
     double speed_mps = 0.0;
   };
 
-  double departure_mps() const;
+  /// Straight line through the speeds of the first kBefore steps (least squares).
+  struct Line {
+    double middle_s = 0.0;
+    double speed_mps = 0.0;  ///< At middle_s.
+    double slope_mps2 = 0.0;
+    double noise_m2ps2 = 0.0;  ///< Variance of the steps about it.
+
+    double at(double time_s) const { return speed_mps + slope_mps2 * (time_s - middle_s); }
+  };
+  Line line_before() const;
+  double mean_mps(std::size_t first) const;
+  std::optional<double> change_mps() const;
 
   std::array<Step, kMost> steps_{};  ///< Oldest first.
   double size_ = 0.0;                ///< How many are known, a whole number.

@@ -6,15 +6,16 @@
 namespace slammot::localization {
 namespace {
 
-/// The step under one of its hypotheses of the slip. before: the estimate at the last scan, of which
-/// the calibration stays.
-Step under_slip(Step step, std::size_t hypothesis, const sensing::MotionEstimate& before) {
+/// The step under one of its hypotheses of the slip, from the pose that the same hypothesis had at
+/// the last scan. before: the estimate there, of which the calibration stays.
+Step under_slip(Step step, std::size_t hypothesis, const OdometryPrediction::State& before) {
   constexpr double kSpeedSigma_mps = 0.3;  // of a step, beside that of the slip
   constexpr double kYawRateSigma_radps = 0.05;
   const sensing::SlipHypothesis& slip = step.slip[hypothesis];
-  step.after = sensing::put_at(before, slip.odom_from_base);
+  step.odom_from_base_before = before.slip[hypothesis].odom_from_base;
+  step.after = sensing::put_at(before.estimate, slip.odom_from_base);
   if (step.duration_s <= 0.0) return step;
-  const geometry::Pose2 moved = geometry::inverse(before.odom_from_base) * slip.odom_from_base.pose;
+  const geometry::Pose2 moved = geometry::inverse(step.odom_from_base_before.pose) * slip.odom_from_base.pose;
   step.after.velocity = {moved.x_m / step.duration_s, moved.heading_rad / step.duration_s};
   step.after.covariance.bottomRows<2>().setZero();
   step.after.covariance.rightCols<2>().setZero();
@@ -34,20 +35,20 @@ void OdometryPrediction::follow_slip(const geometry::Pose2& by_wheels, Step& ste
   step.source = StepSource::kOdometry;
   step.wheels.have_changed = step.wheels.are_in_doubt = false;
   step.slip = state_.slip.moved(before_from_base, step.duration_s);
-  step = under_slip(step, step.slip.likeliest(), state_.estimate);
+  step = under_slip(step, step.slip.likeliest(), state_);
 }
 
 StepMixture OdometryPrediction::slip_hypotheses(const Step& by_wheels) const {
   StepMixture steps{};
   for (std::size_t i = 0; i < by_wheels.slip.size(); ++i)
-    steps.push_back(with_velocity(under_slip(by_wheels, i, state_.estimate), *state_.last));
+    steps.push_back(with_velocity(under_slip(by_wheels, i, state_), *state_.last));
   return steps;
 }
 
 /// After the scan of the step was matched.
 void OdometryPrediction::observe_slip(const Step& step, const ScanMatch& match) {
   constexpr double kFrequent_s = 0.06;  // else a vehicle changes its speed as much between scans
-  constexpr double kStepsToNotice = 3.0;
+  constexpr double kStepsToNotice = 2.0;
   state_.slip = step.slip;
   const bool was_found_elsewhere = match.is_believed && match.is_lost;
   const bool tells = config_.belief.enabled && config_.odometry.time_is_known &&
