@@ -12,8 +12,8 @@ namespace {
 
 using geometry::Matrix3;
 using geometry::Pose2;
-using geometry::UncertainPose2;
 using geometry::squared;
+using geometry::UncertainPose2;
 
 constexpr double kSlipWalk_mps = 0.2;  // per sqrt(s)
 constexpr double kLongestUndecided_s = 1.0;
@@ -41,8 +41,7 @@ SlipHypothesis moved(const SlipHypothesis& before, const UncertainPose2& before_
   after.odom_from_base = {
       pose * step, by_before * before.odom_from_base.covariance * by_before.transpose() +
                        by_step * before_from_base.covariance * by_step.transpose() + mixed +
-                       mixed.transpose() +
-                       before.slip_variance * by_slip * by_slip.transpose()};
+                       mixed.transpose() + before.slip_variance * by_slip * by_slip.transpose()};
   after.pose_with_slip = cross + before.slip_variance * by_slip;
   if (!before.is_none()) after.slip_variance += squared(kSlipWalk_mps) * duration_s;
   return after;

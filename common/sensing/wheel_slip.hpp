@@ -56,8 +56,8 @@ class WheelSlip {
   /// All hypotheses after a step.
   WheelSlip moved(const geometry::UncertainPose2& before_from_base, double duration_s) const;
 
-  /// State after the scan that they were matched with: what lost is dropped, and a slip that is over
-  /// ends.
+  /// State after the scan that they were matched with: what lost is dropped, and a slip that is
+  /// over ends.
   WheelSlip decided() const;
 
   /// Passes each value of the state to the visitor, in a fixed order: for a checkpoint.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "common/geometry/squared.hpp"
 
@@ -35,38 +36,39 @@ WheelSpeedChange::Line WheelSpeedChange::line_before() const {
   }
   if (of_time_s2 <= 0.0) return line;
   line.slope_mps2 = of_both_m / of_time_s2;
-  line.noise_m2ps2 =
-      std::max(0.0, of_speed_m2ps2 - line.slope_mps2 * of_both_m) / (kBefore - 2);
+  line.noise_m2ps2 = std::max(0.0, of_speed_m2ps2 - line.slope_mps2 * of_both_m) / (kBefore - 2);
   return line;
 }
 
-/// Mean speed of kLast steps from the given one on.
-double WheelSpeedChange::mean_mps(std::size_t first) const {
-  double mean = 0.0;
-  for (std::size_t i = first; i < first + kLast; ++i) mean += steps_[i].speed_mps / kLast;
-  return mean;
+/// How far a step departs from the line, and from the speed before the last steps: the smaller of
+/// both, as far as they agree. A vehicle that begins to brake, or comes to a stand, departs far
+/// from one of them only.
+double WheelSpeedChange::departure_mps(const Step& step, const Line& line) const {
+  const auto before = std::span(steps_).subspan<kBefore - kLast, kLast>();
+  const double least_mps =
+      std::min({before[0].speed_mps, before[1].speed_mps, before[2].speed_mps});
+  const double most_mps = std::max({before[0].speed_mps, before[1].speed_mps, before[2].speed_mps});
+  const double median_mps =
+      before[0].speed_mps + before[1].speed_mps + before[2].speed_mps - least_mps - most_mps;
+  const double from_line_mps = step.speed_mps - line.at(step.middle_s);
+  const double from_before_mps = step.speed_mps - median_mps;
+  if (from_line_mps * from_before_mps <= 0.0) return 0.0;
+  return std::abs(from_line_mps) < std::abs(from_before_mps) ? from_line_mps : from_before_mps;
 }
 
-/// A vehicle that begins to brake or comes to a stand leaves the line, or the speed that it had, but
-/// not both so far: the smaller departure counts.
 std::optional<double> WheelSpeedChange::change_mps() const {
-  constexpr double kLeast_mps = 0.53;
+  constexpr double kLeast_mps = 0.52;
   constexpr double kLeastOfStep_mps = 0.3;
   constexpr double kSigmas = 2.2;
   const Line line = line_before();
-  const double last_mps = mean_mps(kBefore);
-  const double from_line_mps = last_mps - line.at(steps_[kBefore + kLast / 2].middle_s);
-  const double from_before_mps = last_mps - mean_mps(kBefore - kLast);
-  const double least_mps = std::max(kLeast_mps, kSigmas * std::sqrt(line.noise_m2ps2));
-  if (from_line_mps * from_before_mps <= 0.0 || std::abs(from_line_mps) < least_mps ||
-      std::abs(from_before_mps) < least_mps)
+  double mean_mps = 0.0;
+  for (std::size_t i = kBefore; i < kMost; ++i) mean_mps += departure_mps(steps_[i], line) / kLast;
+  if (std::abs(mean_mps) < std::max(kLeast_mps, kSigmas * std::sqrt(line.noise_m2ps2)))
     return std::nullopt;
-  const auto departure_mps = [&](const Step& step) {
-    return step.speed_mps - line.at(step.middle_s);
-  };
-  const double newest_mps = departure_mps(steps_[kMost - 1]);
-  const double sign = std::copysign(1.0, from_line_mps);
-  if (sign * newest_mps < kLeastOfStep_mps || sign * departure_mps(steps_[kMost - 2]) < kLeastOfStep_mps)
+  const double newest_mps = departure_mps(steps_[kMost - 1], line);
+  const double second_mps = departure_mps(steps_[kMost - 2], line);
+  const double sign = std::copysign(1.0, mean_mps);
+  if (sign * newest_mps < kLeastOfStep_mps || sign * second_mps < kLeastOfStep_mps)
     return std::nullopt;
   return newest_mps;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 
 namespace slammot::sensing {
@@ -50,7 +51,7 @@ class WheelSpeedChange {
     double at(double time_s) const { return speed_mps + slope_mps2 * (time_s - middle_s); }
   };
   Line line_before() const;
-  double mean_mps(std::size_t first) const;
+  double departure_mps(const Step& step, const Line& line) const;
   std::optional<double> change_mps() const;
 
   std::array<Step, kMost> steps_{};  ///< Oldest first.

@@ -294,10 +294,4 @@ OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step,
           (step.has_wheels() && !sensing::count_nothing(step.wheels.uncorrected))};
 }
 
-void OdometryPrediction::begin_map_here() {
-  state_.estimate.covariance.topRows<3>().setZero();
-  state_.estimate.covariance.leftCols<3>().setZero();
-  state_.slip = {};
-}
-
 }  // namespace slammot::localization

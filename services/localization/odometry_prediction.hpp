@@ -210,7 +210,11 @@ class OdometryPrediction {
   void observe(const Step& step, const ScanMatch& match);
 
   /// A new map begins at the pose: against it the pose is exact.
-  void begin_map_here();
+  void begin_map_here() {
+    state_.estimate.covariance.topRows<3>().setZero();
+    state_.estimate.covariance.leftCols<3>().setZero();
+    state_.slip = {};
+  }
 
   const State& state() const { return state_; }
   /// Undoes what came since; state is one that state() gave.

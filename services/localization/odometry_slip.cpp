@@ -15,7 +15,8 @@ Step under_slip(Step step, std::size_t hypothesis, const OdometryPrediction::Sta
   step.odom_from_base_before = before.slip[hypothesis].odom_from_base;
   step.after = sensing::put_at(before.estimate, slip.odom_from_base);
   if (step.duration_s <= 0.0) return step;
-  const geometry::Pose2 moved = geometry::inverse(step.odom_from_base_before.pose) * slip.odom_from_base.pose;
+  const geometry::Pose2 moved =
+      geometry::inverse(step.odom_from_base_before.pose) * slip.odom_from_base.pose;
   step.after.velocity = {moved.x_m / step.duration_s, moved.heading_rad / step.duration_s};
   step.after.covariance.bottomRows<2>().setZero();
   step.after.covariance.rightCols<2>().setZero();
@@ -60,12 +61,11 @@ void OdometryPrediction::observe_slip(const Step& step, const ScanMatch& match) 
     return;
   }
   if (step.duration_s <= 0.0) return;
-  const geometry::Pose2 by_wheels =
-      sensing::corrected(step.wheels.uncorrected, step.duration_s, state_.belief.factors);
   const std::optional<double> changed_mps =
-      state_.speed_change.observe(by_wheels.x_m / step.duration_s, step.duration_s);
+      state_.speed_change.observe(step.wheels.uncorrected.x_m / step.duration_s, step.duration_s);
   if (changed_mps && !match.is_lost)
-    state_.slip = state_.slip.changed(state_.estimate.uncertain_pose(), *changed_mps,
+    state_.slip = state_.slip.changed(state_.estimate.uncertain_pose(),
+                                      state_.belief.factors.way * *changed_mps,
                                       kStepsToNotice * step.duration_s);
 }
 

@@ -39,7 +39,9 @@ std::optional<geometry::Vector2> OdometryWatch::compare(const Placed& placed,
   const ScanMatch& match = placed.match;
   if (!match.is_believed || match.is_lost || !config_.belief.enabled) return std::nullopt;
   if (placed.step.slip.is_active()) {
-    keyframes_.resume({});  // its way by odometry has the slip in it
+    keyframes_.resume({});  // ways by odometry have the slip in them
+    lateness_.begin_anew();
+    factors_.begin_anew();
     return std::nullopt;
   }
   const auto comparison = keyframes_.observe({placed.step, match.odom_from_base.pose, placed.points,

@@ -20,9 +20,13 @@ std::optional<ExplainedStep> PoseEstimator::explain(const ScanToPlace& placed,
                              by_wheels.duration_s > 0.0 && matcher_.can_match(points_.matched());
   if (!may_be_judged) return std::nullopt;
   const auto take = [&](const Step& step) { take_points(placed, step); };
-  const StepToExplain scan{prediction_.explanations(by_wheels), prediction_.weights(),
+  const StepToExplain scan{prediction_.explanations(by_wheels),
+                           prediction_.weights(),
                            prediction_.state().belief.usual_share,
-                           prediction_.state().belief.steps, points_, placed.submaps.map(), take};
+                           prediction_.state().belief.steps,
+                           points_,
+                           placed.submaps.map(),
+                           take};
   ExplainedStep explained = by_wheels.slip.is_active() ? explain_slip(scan, config_, matcher_)
                                                        : mixture_.explain(scan, matcher_);
   prediction_.weigh(explained.weights);

@@ -14,8 +14,8 @@ double log_likelihood_under_slip(const StepToExplain& scan, const Step& step,
                                  const LocalizerConfig& config) {
   constexpr double kIndependentPoints = 0.1;  // share of a scan's: the scans of a second meet the
                                               // same surfaces
-  const geometry::Pose2 optimum = sensing::scan_optimum(
-      step.prior(), registered.map_from_base.pose, registered.scan_information);
+  const geometry::Pose2 optimum = sensing::scan_optimum(step.prior(), registered.map_from_base.pose,
+                                                        registered.scan_information);
   const double fit = matching::fit_of(registered, config.match.robust_scale_m);
   return log_likelihood_of(step, optimum, registered) +
          config.belief.share_nats * scan.points.evidence_share() * kIndependentPoints * fit;
