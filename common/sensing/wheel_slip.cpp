@@ -17,6 +17,7 @@ using geometry::UncertainPose2;
 
 constexpr double kSlipWalk_mps = 0.2;  // per sqrt(s)
 constexpr double kLongestUndecided_s = 1.0;
+constexpr double kLeastVariance = 1e-6;  // [m^2/s^2] of a slip that is estimated, despite rounding
 
 /// The pose, known less well along the way.
 UncertainPose2 widened_ahead(UncertainPose2 pose, double by_m) {
@@ -56,7 +57,8 @@ SlipHypothesis matched(const SlipHypothesis& predicted, const UncertainPose2& od
   const Eigen::Vector3d missed =
       geometry::difference(odom_from_base.pose, predicted.odom_from_base.pose);
   after.slip_mps += gain.dot(missed);
-  after.slip_variance -= gain.dot((prior - odom_from_base.covariance) * gain);
+  const double told_variance = gain.dot((prior - odom_from_base.covariance) * gain);
+  after.slip_variance = std::max(predicted.slip_variance - told_variance, kLeastVariance);
   after.pose_with_slip = odom_from_base.covariance * gain;
   return after;
 }

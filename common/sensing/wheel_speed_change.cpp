@@ -74,7 +74,7 @@ std::optional<double> WheelSpeedChange::change_mps() const {
 }
 
 std::optional<double> WheelSpeedChange::observe(double speed_mps, double duration_s) {
-  std::ranges::rotate(steps_, steps_.begin() + 1);
+  std::rotate(steps_.begin(), steps_.begin() + 1, steps_.end());
   for (Step& step : steps_) step.middle_s -= duration_s;
   steps_.back() = {.middle_s = -0.5 * duration_s, .speed_mps = speed_mps};
   size_ = std::min(size_ + 1.0, static_cast<double>(kMost));

@@ -1,6 +1,5 @@
 #include "services/localization/slip_match.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "services/localization/step_likelihoods.hpp"

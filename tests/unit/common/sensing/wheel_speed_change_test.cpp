@@ -59,7 +59,7 @@ TEST(WheelSpeedChange, IsFoundWithinThreeStepsWithItsSize) {
 }
 
 TEST(WheelSpeedChange, IsNotAVehicleThatSetsOffAndBrakes) {
-  EXPECT_FALSE(first_change(stop_and_go_mps, 0.05, 4000));
+  EXPECT_FALSE(first_change(stop_and_go_mps, 0.03, 4000));
 }
 
 TEST(WheelSpeedChange, IsNotNoiseOfTheSteps) {
