@@ -33,13 +33,13 @@ std::optional<FoundChange> first_change(const std::function<double(double time_s
   return std::nullopt;
 }
 
-/// Sets off at 2 s with 3 m/s^2, brakes with 5 m/s^2 to a stand from 7 s on, and so on.
+/// Sets off at 2 s with 3 m/s^2, brakes with 4 m/s^2 to a stand from 7 s on, and so on.
 double stop_and_go_mps(double time_s) {
   const double phase_s = std::fmod(time_s, 12.0);
   if (phase_s < 2.0) return 0.0;
   if (phase_s < 6.0) return 3.0 * (phase_s - 2.0);
   if (phase_s < 7.0) return 12.0;
-  return std::max(0.0, 12.0 - 5.0 * (phase_s - 7.0));
+  return std::max(0.0, 12.0 - 4.0 * (phase_s - 7.0));
 }
 
 TEST(WheelSpeedChange, IsFoundWithinThreeStepsWithItsSize) {
