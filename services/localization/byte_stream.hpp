@@ -17,12 +17,16 @@ using memory::put_bytes;
 using memory::put_cells;
 using memory::unsealed;
 
-/// Whether a pose that was read can be worked with: finite, and near enough that cells of any size
-/// can be counted.
-inline bool is_believable(const geometry::Pose2& pose) {
+/// Whether a place that was read can be worked with: near enough that cells of any size can be
+/// counted.
+inline bool is_believable(const geometry::Vector2& place_m) {
   constexpr double kFarthest_m = 1e7;
-  return std::abs(pose.x_m) < kFarthest_m && std::abs(pose.y_m) < kFarthest_m &&
-         std::isfinite(pose.heading_rad);
+  return std::abs(place_m.x()) < kFarthest_m && std::abs(place_m.y()) < kFarthest_m;
+}
+
+/// The same of a pose.
+inline bool is_believable(const geometry::Pose2& pose) {
+  return is_believable(pose.translation_m()) && std::isfinite(pose.heading_rad);
 }
 
 /// Whether a matrix that was read can be a covariance of a pose, or of a pose and a calibration.

@@ -10,8 +10,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x736c616d6d6f746f;  // "slammoto": the last letter counts the forms
-                                                     // of a checkpoint
+constexpr std::uint64_t kMark = 0x736c616d6d6f746f;  // "slammoto": its last letter counts forms
 constexpr double kFastestRestored = 1e3;  // m/s or rad/s: no vehicle was faster when the checkpoint
                                           // was made
 constexpr double kLargestFactor = 1e4;    // of way or turn: millimetres taken for metres are 1e3
@@ -151,8 +150,9 @@ bool is_sound(const std::optional<KeyframeOdometry::Keyframe>& keyframe) {
   if (!keyframe) return true;
   return is_believable(keyframe->wheel_from_base) && is_believable(keyframe->odom_from_base) &&
          std::abs(static_cast<double>(keyframe->stamp_ns)) < kFarthestStamp_ns &&
-         std::ranges::all_of(keyframe->points_in_base_m,
-                             [](const geometry::Vector2& point_m) { return point_m.allFinite(); });
+         std::ranges::all_of(keyframe->points_in_base_m, [](const geometry::Vector2& point_m) {
+           return is_believable(point_m);
+         });
 }
 
 bool is_sound(const KeyframeOdometry::State& keyframes) {

@@ -138,7 +138,7 @@ std::optional<LocalMap> LocalMap::restored(const LocalMapConfig& config, ByteRea
   if (has_counted) odometer.counted_to_m = counted_to_m;
   const bool fits = from.ok() && is_possible(stored, config) && is_believable(odom_from_submap) &&
                     odometer.way_m >= 0.0 && std::isfinite(odometer.way_m) &&
-                    counted_to_m.allFinite();
+                    is_believable(counted_to_m);
   if (!fits) return std::nullopt;
   LocalMap map(config, stored.window, stored.surfel_lattice, help);
   Inherited inherited{std::move(stored.inherited_so), std::move(stored.inherited_mo),
