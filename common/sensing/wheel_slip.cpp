@@ -63,10 +63,13 @@ SlipHypothesis matched(const SlipHypothesis& predicted, const UncertainPose2& od
   return after;
 }
 
-std::size_t WheelSlip::likeliest() const {
+std::size_t WheelSlip::likeliest(double none_more_nats) const {
+  const auto log_weight = [&](const SlipHypothesis& one) {
+    return one.log_weight + (one.is_none() ? none_more_nats : 0.0);
+  };
   std::size_t best = 0;
   for (std::size_t i = 1; i < size(); ++i)
-    if (hypotheses_[i].log_weight > hypotheses_[best].log_weight) best = i;
+    if (log_weight(hypotheses_[i]) > log_weight(hypotheses_[best])) best = i;
   return best;
 }
 
@@ -133,12 +136,13 @@ WheelSlip WheelSlip::questioned() const {
 WheelSlip WheelSlip::decided() const {
   constexpr double kLeast_s = 0.15;
   constexpr double kClear_nats = 6.0;
+  constexpr double kUndecided_nats = 2.0;  // by which a slip has to be likelier than none at last
   constexpr double kOver_mps = 0.1;
   WheelSlip after = *this;
   if (!is_active()) return after;
   const std::size_t best = likeliest();
   if (undecided_s_ > kLongestUndecided_s) {
-    after.keep_only(best);
+    after.keep_only(likeliest(kUndecided_nats));
   } else if (undecided_s_ > kLeast_s) {
     after.size_ = 0.0;
     for (std::size_t i = 0; i < size(); ++i)

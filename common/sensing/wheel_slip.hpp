@@ -43,7 +43,8 @@ class WheelSlip {
   std::size_t size() const { return static_cast<std::size_t>(size_); }
   const SlipHypothesis& operator[](std::size_t i) const { return hypotheses_[i]; }
   SlipHypothesis& operator[](std::size_t i) { return hypotheses_[i]; }
-  std::size_t likeliest() const;
+  /// none_more_nats: what is added to the log weight of there being no slip.
+  std::size_t likeliest(double none_more_nats = 0.0) const;
 
   /// Whether scans placed now stay out of the map: the pose is not sure enough, and the map would
   /// confirm its error to the scans that follow. For a second at most.

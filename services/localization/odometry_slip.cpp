@@ -1,3 +1,4 @@
+#include <cmath>
 #include <optional>
 
 #include "services/localization/odometry_prediction.hpp"
@@ -50,6 +51,7 @@ StepMixture OdometryPrediction::slip_hypotheses(const Step& by_wheels) const {
 void OdometryPrediction::observe_slip(const Step& step, const ScanMatch& match) {
   constexpr double kFrequent_s = 0.06;  // else a vehicle changes its speed as much between scans
   constexpr double kStepsToNotice = 2.0;
+  constexpr double kMost_mps = 4.0;  // more is no slip that lasts: one scan tells such wheels wrong
   state_.slip = step.slip;
   const bool was_found_elsewhere = match.is_believed && match.is_lost;
   const bool tells = config_.belief.enabled && config_.odometry.time_is_known &&
@@ -63,9 +65,13 @@ void OdometryPrediction::observe_slip(const Step& step, const ScanMatch& match) 
   if (step.duration_s <= 0.0) return;
   const std::optional<double> changed_mps =
       state_.speed_change.observe(step.wheels.uncorrected.x_m / step.duration_s, step.duration_s);
-  if (changed_mps && !match.is_lost)
-    state_.slip = state_.slip.changed(state_.estimate.uncertain_pose(),
-                                      state_.belief.factors.way * *changed_mps,
+  if (!changed_mps) return;
+  const bool have_frozen =
+      !state_.slip.is_active() && sensing::count_nothing(step.wheels.uncorrected);
+  const double by_mps = state_.belief.factors.way * *changed_mps;
+  if (have_frozen || std::abs(by_mps) > kMost_mps) state_.slip = {};
+  else if (!match.is_lost)
+    state_.slip = state_.slip.changed(state_.estimate.uncertain_pose(), by_mps,
                                       kStepsToNotice * step.duration_s);
 }
 

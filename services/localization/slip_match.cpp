@@ -7,7 +7,8 @@
 namespace slammot::localization {
 namespace {
 
-/// Log-likelihood of the scan under a hypothesis [nats], up to a constant of the scan.
+/// Log-likelihood of the scan under a hypothesis [nats], up to a constant of the scan. Beside a pose
+/// that is off, the points that tell so do not match any more: their share tells it.
 double log_likelihood_under_slip(const StepToExplain& scan, const Step& step,
                                  const matching::PointToLineResult& registered,
                                  const LocalizerConfig& config) {
@@ -17,7 +18,8 @@ double log_likelihood_under_slip(const StepToExplain& scan, const Step& step,
                                                         registered.scan_information);
   const double fit = matching::fit_of(registered, config.match.robust_scale_m);
   return log_likelihood_of(step, optimum, registered) +
-         config.belief.share_nats * scan.points.evidence_share() * kIndependentPoints * fit;
+         config.belief.share_nats * scan.points.evidence_share() * kIndependentPoints *
+             (fit + registered.matched_share);
 }
 
 }  // namespace
