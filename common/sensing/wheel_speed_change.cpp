@@ -60,6 +60,7 @@ std::optional<double> WheelSpeedChange::change_mps() const {
   constexpr double kLeast_mps = 0.52;
   constexpr double kLeastOfStep_mps = 0.3;
   constexpr double kSigmas = 2.2;
+  constexpr double kLeastShareAtOnce = 0.65;
   const Line line = line_before();
   double mean_mps = 0.0;
   for (std::size_t i = kBefore; i < kMost; ++i) mean_mps += departure_mps(steps_[i], line) / kLast;
@@ -70,6 +71,9 @@ std::optional<double> WheelSpeedChange::change_mps() const {
   const double sign = std::copysign(1.0, mean_mps);
   if (sign * newest_mps < kLeastOfStep_mps || sign * second_mps < kLeastOfStep_mps)
     return std::nullopt;
+  // A vehicle that brakes departs farther with each step, wheels that slip at once.
+  const double oldest_mps = departure_mps(steps_[kBefore], line);
+  if (sign * oldest_mps < kLeastShareAtOnce * sign * newest_mps) return std::nullopt;
   return newest_mps;
 }
 
