@@ -7,8 +7,8 @@
 namespace slammot::localization {
 namespace {
 
-/// Log-likelihood of the scan under a hypothesis [nats], up to a constant of the scan. Beside a pose
-/// that is off, the points that tell so do not match any more: their share tells it.
+/// Log-likelihood of the scan under a hypothesis [nats], up to a constant of the scan. Beside a
+/// pose that is off, the points that tell so do not match any more: their share tells it.
 double log_likelihood_under_slip(const StepToExplain& scan, const Step& step,
                                  const matching::PointToLineResult& registered,
                                  const LocalizerConfig& config) {
