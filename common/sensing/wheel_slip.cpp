@@ -26,6 +26,13 @@ UncertainPose2 widened_ahead(UncertainPose2 pose, double by_m) {
   return pose;
 }
 
+/// The slip is over: the wheels are right from here on.
+SlipHypothesis ended(SlipHypothesis hypothesis) {
+  hypothesis.slip_mps = hypothesis.slip_variance = 0.0;
+  hypothesis.pose_with_slip.setZero();
+  return hypothesis;
+}
+
 }  // namespace
 
 SlipHypothesis moved(const SlipHypothesis& before, const UncertainPose2& before_from_base,
@@ -106,10 +113,7 @@ WheelSlip WheelSlip::changed(const UncertainPose2& odom_from_base, double by_mps
   other.slip_mps += by_mps;
   other.slip_variance += squared(std::max(kLeastSigma_mps, kSigmaShare * std::abs(by_mps)));
   after.push_back(other);
-  if (!before.is_none()) {
-    other.slip_mps = other.slip_variance = 0.0;
-    after.push_back(other);
-  }
+  if (!before.is_none()) after.push_back(ended(other));
   return after;
 }
 
@@ -125,10 +129,7 @@ WheelSlip WheelSlip::questioned() const {
   constexpr double kQuestionedAfter_s = 5.0;
   WheelSlip after = *this;
   if (undecided_s_ < kQuestionedAfter_s) return after;
-  SlipHypothesis over = hypotheses_[0];
-  over.slip_mps = over.slip_variance = 0.0;
-  over.pose_with_slip.setZero();
-  after.push_back(over);
+  after.push_back(ended(hypotheses_[0]));
   after.undecided_s_ = 0.0;
   return after;
 }

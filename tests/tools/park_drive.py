@@ -10,9 +10,10 @@ import math
 import random
 import sys
 
+from carmen_drive import NO_ECHO_M, compound
+
 BEAMS = 361
 STEP_RAD = math.pi / (BEAMS - 1)
-NO_ECHO_M = 81.83
 RANGE_M = 40.0
 RANGE_NOISE_M = 0.02
 LASER_AHEAD_M = 1.5
@@ -78,14 +79,13 @@ def scan(circles, laser, draw):
     return [range_m if range_m < RANGE_M else NO_ECHO_M for range_m in noisy]
 
 
-def compound(pose, way_m, turn_rad):
-    """Along the chord of the arc, which leaves at half the turn."""
-    half_rad = pose[2] + 0.5 * turn_rad
-    return pose[0] + way_m * math.cos(half_rad), pose[1] + way_m * math.sin(half_rad), pose[2] + turn_rad
+def arc(way_m, turn_rad):
+    """The step along its chord, which leaves at half the turn."""
+    return way_m * math.cos(0.5 * turn_rad), way_m * math.sin(0.5 * turn_rad), turn_rad
 
 
 def of_laser(pose):
-    return pose[0] + LASER_AHEAD_M * math.cos(pose[2]), pose[1] + LASER_AHEAD_M * math.sin(pose[2]), pose[2]
+    return compound(pose, (LASER_AHEAD_M, 0.0, 0.0))
 
 
 def write(prefix, options):
@@ -100,7 +100,7 @@ def write(prefix, options):
                 turn_rad = math.remainder(pose[2] - before[2], 2 * math.pi)
                 scatter_rad = draw.gauss(0.0, options.scatter * math.sqrt(abs(turn_rad)))
                 way_m = math.dist(before[:2], pose[:2]) * (1.0 + draw.gauss(0.0, 0.02))
-                wheels = compound(wheels, way_m, options.turn_factor * turn_rad + scatter_rad)
+                wheels = compound(wheels, arc(way_m, options.turn_factor * turn_rad + scatter_rad))
             before = pose
             laser, by_wheels = of_laser(pose), of_laser(wheels)
             numbers = " ".join(f"{range_m:.2f}" for range_m in scan(circles, laser, draw))
