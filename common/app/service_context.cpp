@@ -109,6 +109,11 @@ bool ServiceContext::may_stop_now() {
   return true;
 }
 
+void ServiceContext::warn_of_cut_samples(const dds::ReaderBase& reader, std::uint64_t& known) {
+  for (; known < reader.cut(); ++known)
+    warn("cut_samples", std::string(reader.topic().name) + ": dropped a sample that ends early");
+}
+
 void ServiceContext::count_missed(const InputWatch& input, std::uint32_t samples) {
   if (samples == 0) return;
   const std::string counter = "missed_" + short_name(input.topic_name());

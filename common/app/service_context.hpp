@@ -72,8 +72,8 @@ class ServiceContext {
         dds::has_one_writer(topic) ? std::make_shared<ForeignSamples>(topic, *reader) : nullptr;
     const bool has_deep_history = history == dds::History::kRestart;
     wait_set_.on_data(*reader, [this, reader = reader.get(), &input, handle, owners,
-                                has_deep_history, sequence = SequenceWatch(),
-                                queue = QueueWatch()]() mutable {
+                                has_deep_history, sequence = SequenceWatch(), queue = QueueWatch(),
+                                cut = std::uint64_t{0}]() mutable {
       const auto take = [&](const Sample& sample, const dds::SampleInfo& info) {
         if (vehicle_id() != sample.vehicle_id) return;
         if (owners && !owners->accepts(*this, info)) return;
@@ -92,6 +92,7 @@ class ServiceContext {
         reader->take_batch(take, lose, [&](bool is_long) {
           return queue.leaves_out(is_long, std::chrono::steady_clock::now());
         });
+      warn_of_cut_samples(*reader, cut);
     });
     keep(reader);
     return *reader;
@@ -210,6 +211,8 @@ class ServiceContext {
     endpoints_.push_back(endpoint);
   }
   void count_missed(const InputWatch& input, std::uint32_t samples);
+  /// Of those since `known`, which is brought up to date.
+  void warn_of_cut_samples(const dds::ReaderBase& reader, std::uint64_t& known);
   void refuse_unless_publisher(const dds::TopicInfo& topic) const;
   std::chrono::nanoseconds until_next_timer() const;
   void run_due_timers();

@@ -1,5 +1,11 @@
 #include "common/dds/reader.hpp"
 
+#include <algorithm>
+
+#include <dds/dds.h>
+#include <dds/ddsi/ddsi_serdata.h>
+
+#include "common/dds/cut_sample.hpp"
 #include "common/dds/qos_pointer.hpp"
 
 namespace slammot::dds {
@@ -22,6 +28,11 @@ QosPointer reader_qos(const TopicInfo& info, History history) {
   return qos;
 }
 
+SampleInfo to_info(const dds_sample_info_t& info) {
+  return {info.source_timestamp, info.publication_handle, info.instance_handle, info.valid_data,
+          info.instance_state != DDS_IST_ALIVE};
+}
+
 }  // namespace
 
 QosPointer make_recorder_qos() {
@@ -32,19 +43,56 @@ QosPointer make_recorder_qos() {
 }
 
 LoanBase::LoanBase(ReaderBase& reader) : reader_(reader.handle()) {
+  if (reader.topic().least_bytes > 0) take_whole(reader);
+  else take(reader);
+}
+
+LoanBase::~LoanBase() {
+  if (type_of_own_ != nullptr)
+    for (std::size_t i = 0; i < size_; ++i)
+      dds_sample_free(samples_[i], type_of_own_, DDS_FREE_ALL);
+  else if (size_ > 0) dds_return_loan(reader_, samples_.data(), static_cast<std::int32_t>(size_));
+}
+
+void LoanBase::take(ReaderBase& reader) {
   std::array<dds_sample_info_t, kMost> infos;
   const dds_return_t count = check(dds_take(reader_, samples_.data(), infos.data(), kMost, kMost),
                                    reader.describe("dds_take"));
   size_ = static_cast<std::size_t>(count);
-  for (std::size_t i = 0; i < size_; ++i) {
-    infos_[i] = {infos[i].source_timestamp, infos[i].publication_handle, infos[i].instance_handle,
-                 infos[i].valid_data, infos[i].instance_state != DDS_IST_ALIVE};
-    reader.taken_ += infos[i].valid_data ? 1 : 0;
-  }
+  for (std::size_t i = 0; i < size_; ++i) infos_[i] = to_info(infos[i]);
+  reader.taken_ += count_values();
 }
 
-LoanBase::~LoanBase() {
-  if (size_ > 0) dds_return_loan(reader_, samples_.data(), static_cast<std::int32_t>(size_));
+void LoanBase::take_whole(ReaderBase& reader) {
+  type_of_own_ = reader.topic().type;
+  while (size_ == 0) {
+    std::array<ddsi_serdata*, kMost> taken{};
+    std::array<dds_sample_info_t, kMost> infos;
+    const dds_return_t count =
+        check(dds_takecdr(reader_, taken.data(), kMost, infos.data(), DDS_ANY_STATE),
+              reader.describe("dds_takecdr"));
+    if (count == 0) return;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      void* const sample = dds_alloc(type_of_own_->m_size);
+      const bool is_kept =
+          !infos[i].valid_data || read_whole(taken[i], reader.topic().least_bytes, sample);
+      ddsi_serdata_unref(taken[i]);
+      if (is_kept) {
+        samples_[size_] = sample;
+        infos_[size_++] = to_info(infos[i]);
+      } else {
+        dds_sample_free(sample, type_of_own_, DDS_FREE_ALL);
+        ++reader.cut_;
+      }
+    }
+  }
+  reader.taken_ += count_values();
+}
+
+std::uint64_t LoanBase::count_values() const {
+  return static_cast<std::uint64_t>(
+      std::count_if(infos_.begin(), infos_.begin() + static_cast<std::ptrdiff_t>(size_),
+                    [](const SampleInfo& info) { return info.has_value; }));
 }
 
 ReaderBase::ReaderBase(const Participant& participant, const TopicInfo& info, History history)

@@ -30,7 +30,7 @@ struct SampleInfo {
   std::uint64_t writer_handle = 0;  ///< Tells writers apart while they live.
   std::uint64_t key_handle = 0;     ///< Tells keys apart.
   bool has_value = false;  ///< False: the key ended, or lost its last writer; only the key can be
-                           ///< read.
+                           ///< read, and not even that where the topic has least_bytes.
   bool has_ended = false;  ///< The same, told together with a value.
 };
 
@@ -54,7 +54,13 @@ class LoanBase {
   const void* sample(std::size_t index) const { return samples_[index]; }
 
  private:
+  void take(ReaderBase& reader);
+  /// The same; leaves out what ends before an appendable structure within it.
+  void take_whole(ReaderBase& reader);
+  std::uint64_t count_values() const;
+
   Entity::Handle reader_;
+  const dds_topic_descriptor* type_of_own_ = nullptr;  // of samples that are not the library's
   std::array<void*, kMost> samples_{};
   std::array<SampleInfo, kMost> infos_{};
   std::size_t size_ = 0;
@@ -81,6 +87,8 @@ class ReaderBase : public Endpoint {
   /// Waits for the first one; false at the timeout.
   bool wait_for_mismatch(std::chrono::nanoseconds timeout) const;
   ReaderCounters counters() const;
+  /// Samples that were left out since they were shorter than the topic's least_bytes.
+  std::uint64_t cut() const { return cut_; }
 
  protected:
   ReaderBase(const Participant& participant, const TopicInfo& info, History history);
@@ -92,6 +100,7 @@ class ReaderBase : public Endpoint {
   friend class LoanBase;
   friend class WaitSet;
   std::uint64_t taken_ = 0;
+  std::uint64_t cut_ = 0;
   Entity data_available_;  // condition: there are samples to take
 };
 

@@ -27,9 +27,15 @@ struct TopicInfo {
   /// Services that may publish it, separated by spaces; "*": every service. `tools` is the command
   /// line.
   std::string_view publishers = {};
+  /// Bytes after which all appendable structures in the sample have begun. Cyclone DDS 0.10.2 calls
+  /// abort() where it reads a sample that ends before one. 0: the type has none, but in sequences.
+  std::uint32_t least_bytes = 0;
 
   std::string_view type_name() const { return type->m_typename; }
 };
+
+/// Longest keys of a SubmapTile, and the delimiter of its header.
+constexpr std::uint32_t kLeastBytesOfTile = 52;
 
 /// A row of the topic table that knows its type.
 template <typename Sample>
@@ -73,10 +79,11 @@ inline constexpr Topic<slammot_CollisionWarnings> kCollisionWarnings{
     {"slammot/collision_warnings", &slammot_CollisionWarnings_desc, Flow::kEstimate, Recorded::kYes,
      "collision_warning"}};
 inline constexpr Topic<slammot_SubmapTile> kSubmapTile{
-    {"slammot/submap_tile", &slammot_SubmapTile_desc, Flow::kTile, Recorded::kNo, "localization"}};
-inline constexpr Topic<slammot_SubmapTile> kStoredSubmapTile{{"slammot/stored_submap_tile",
-                                                              &slammot_SubmapTile_desc, Flow::kTile,
-                                                              Recorded::kYes, "map_store"}};
+    {"slammot/submap_tile", &slammot_SubmapTile_desc, Flow::kTile, Recorded::kNo, "localization",
+     kLeastBytesOfTile}};
+inline constexpr Topic<slammot_SubmapTile> kStoredSubmapTile{
+    {"slammot/stored_submap_tile", &slammot_SubmapTile_desc, Flow::kTile, Recorded::kYes,
+     "map_store", kLeastBytesOfTile}};
 inline constexpr Topic<slammot_StoredMap> kStoredMap{
     {"slammot/stored_map", &slammot_StoredMap_desc, Flow::kGraph, Recorded::kNo, "map_store"}};
 inline constexpr Topic<slammot_Constraint> kConstraint{

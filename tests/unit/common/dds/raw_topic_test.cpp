@@ -124,6 +124,34 @@ TEST_F(RawTopicOnTheBus, BytesTravelUnchangedWithTheirSourceTime) {
   EXPECT_EQ(source_time_ns, first_time_ns);
 }
 
+TEST_F(RawTopicOnTheBus, SamplesThatEndBeforeAStructureAreLeftOutAndCounted) {
+  Writer<slammot_SubmapTile> whole(car, topics::kSubmapTile);
+  TopicDiscovery discovery(recorder);
+  const FoundWriter found = find(discovery, "slammot/submap_tile");
+  RawWriter hostile(player,
+                    RawTopic::of_type("slammot/submap_tile", compiled_type(topics::kSubmapTile)),
+                    found.qos);
+  Reader<slammot_SubmapTile> reader(consumer, topics::kSubmapTile);
+  ASSERT_TRUE(hostile.wait_for_readers(1, kForever));
+  ASSERT_TRUE(whole.wait_for_readers(1, kForever));
+  // D_CDR2, 16 bytes: "car", submap 1, tile 0, and no header.
+  const std::vector<std::uint8_t> keys_alone = {0,   9,   0,   0, 16, 0, 0, 0, 4, 0, 0, 0,
+                                                'c', 'a', 'r', 0, 1,  0, 0, 0, 0, 0, 0, 0};
+  ASSERT_EQ(hostile.write({keys_alone, 1}), RawWriteResult::kWritten);
+  ASSERT_TRUE(hostile.wait_for_acknowledgements(kForever));
+  slammot_SubmapTile tile{};
+  assign(tile.vehicle_id, "car");
+  tile.submap_id = 2;
+  ASSERT_EQ(whole.write(tile), WriteResult::kWritten);
+  ASSERT_TRUE(whole.wait_for_acknowledgements(kForever));
+  std::vector<std::uint32_t> submaps;
+  while (submaps.empty())
+    reader.take_each([&](const slammot_SubmapTile& got) { submaps.push_back(got.submap_id); });
+  EXPECT_THAT(submaps, ::testing::ElementsAre(2));
+  EXPECT_EQ(reader.cut(), 1U);
+  EXPECT_EQ(reader.counters().taken, 1U);
+}
+
 TEST_F(RawTopicOnTheBus, InstancesAreToldApartByTheirKeys) {
   RawWriter writer(
       player, RawTopic::of_type("slammot/constraint", compiled_type(topics::kConstraint)),
