@@ -30,6 +30,12 @@ using ByAllBesidesPose = Eigen::Matrix<double, 3, kBesidesPose>;
 
 double askew_rad(const MotionCalibration& calibration) { return calibration[kAskew - 3]; }
 
+/// Turn that the wheels missed [rad].
+double turn_bias(const Pose2& by_wheels, double duration_s, const MotionCalibration& calibration) {
+  return calibration.y() * duration_s + calibration.z() * std::hypot(by_wheels.x_m, by_wheels.y_m) +
+         calibration[kTurnFactor - 3] * by_wheels.heading_rad;
+}
+
 /// Standard deviation of the motion of a point 1 m off the pivot: rotation about an uncertain pivot
 /// moves the base sideways.
 geometry::Matrix2 swing(double turned_rad) {
@@ -42,7 +48,8 @@ ByCalibration step_by_calibration(const WheelStep& step, const MotionCalibration
   const Pose2& by_wheels = step.before_from_base;
   const double duration_s = step.duration_s;
   const double distance_m = std::hypot(by_wheels.x_m, by_wheels.y_m);
-  const double turn_bias_rad = calibration.y() * duration_s + calibration.z() * distance_m;
+  const double turn_rad = by_wheels.heading_rad;
+  const double turn_bias_rad = turn_bias(by_wheels, duration_s, calibration);
   const geometry::Vector2 turned_m =
       geometry::rotation(askew_rad(calibration) + 0.5 * turn_bias_rad) * by_wheels.translation_m();
   const geometry::Vector2 by_askew_m =
@@ -51,10 +58,10 @@ ByCalibration step_by_calibration(const WheelStep& step, const MotionCalibration
   const geometry::Matrix2 by_pivot = swing(by_wheels.heading_rad + turn_bias_rad);
   ByCalibration J;
   J << turned_m.x(), by_turn_m.x() * duration_s, by_turn_m.x() * distance_m, by_pivot(0, 0),
-      by_pivot(0, 1), step.by_stamp_offset.x(), by_askew_m.x(), turned_m.y(),
-      by_turn_m.y() * duration_s, by_turn_m.y() * distance_m, by_pivot(1, 0), by_pivot(1, 1),
-      step.by_stamp_offset.y(), by_askew_m.y(), 0.0, duration_s, distance_m, 0.0, 0.0,
-      step.by_stamp_offset.z(), 0.0;
+      by_pivot(0, 1), step.by_stamp_offset.x(), by_askew_m.x(), by_turn_m.x() * turn_rad,
+      turned_m.y(), by_turn_m.y() * duration_s, by_turn_m.y() * distance_m, by_pivot(1, 0),
+      by_pivot(1, 1), step.by_stamp_offset.y(), by_askew_m.y(), by_turn_m.y() * turn_rad, 0.0,
+      duration_s, distance_m, 0.0, 0.0, step.by_stamp_offset.z(), 0.0, turn_rad;
   return J;
 }
 
@@ -120,7 +127,8 @@ MotionEstimate at_start(const MotionModelConfig& config) {
       squared(config.heading_rate_bias_prior_radps), squared(config.heading_per_metre_bias_prior),
       squared(config.pivot_prior_m), squared(config.pivot_prior_m),
       squared(config.stamp_offset_prior_s), squared(config.askew_prior_rad),
-      squared(config.speed_prior_mps), squared(config.yaw_rate_prior_radps);
+      squared(config.turn_factor_prior), squared(config.speed_prior_mps),
+      squared(config.yaw_rate_prior_radps);
   return estimate;
 }
 
@@ -149,7 +157,7 @@ geometry::UncertainPose2 predict_step(const Pose2& before_from_base_by_wheels, d
                                       const MotionModelConfig& config) {
   const Pose2& wheels = before_from_base_by_wheels;
   const double distance_m = std::hypot(wheels.x_m, wheels.y_m);
-  const double turn_bias_rad = calibration.y() * duration_s + calibration.z() * distance_m;
+  const double turn_bias_rad = turn_bias(wheels, duration_s, calibration);
   // Half of the missing turn belongs to the first half of the step.
   const geometry::Vector2 moved_m =
       geometry::rotation(askew_rad(calibration) + 0.5 * turn_bias_rad) * wheels.translation_m() *

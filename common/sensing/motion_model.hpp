@@ -18,6 +18,7 @@ struct MotionModelConfig {
   double scale_prior = 0.02;  ///< Of the factor on wheel distance; its mean is 1.
   double heading_rate_bias_prior_radps = 0.005;
   double heading_per_metre_bias_prior = 0.02;  ///< [rad/m]: from unequal wheels.
+  double turn_factor_prior = 0.05;             ///< Of the factor on wheel turns; its mean is 1.
   double pivot_prior_m = 0.0;           ///< Of the turning point, for logs of the pose of the
                                         ///< scanner.
   double doubted_pivot_prior_m = 0.2;   ///< Where that is 0: of a mounting that is not as said. It
@@ -42,9 +43,10 @@ struct MotionModelConfig {
 
 /// Systematic errors of odometry: (scale - 1 [-], heading-rate bias [rad/s], heading bias by
 /// distance [rad/m], position of the base ahead of and left of odometry's reference point [m, m],
-/// lateness of odometry's stamps [s], angle of odometry's way left of the base's x axis [rad]). The
-/// base is defined by the scanner, which may be mounted askew.
-constexpr int kCalibrations = 7;
+/// lateness of odometry's stamps [s], angle of odometry's way left of the base's x axis [rad],
+/// factor on odometry's turns - 1 [-]). The base is defined by the scanner, which may be mounted
+/// askew.
+constexpr int kCalibrations = 8;
 using MotionCalibration = Eigen::Matrix<double, kCalibrations, 1>;
 /// (forward [m/s], yaw rate [rad/s]).
 using Velocity = Eigen::Vector2d;
@@ -82,6 +84,9 @@ struct MotionEstimate {
 constexpr int kPivot = 6;        ///< First of the two rows of the turning point in the covariance.
 constexpr int kStampOffset = 8;  ///< Row of the lateness in the covariance.
 constexpr int kAskew = 9;        ///< Row of the direction of odometry's way in the covariance.
+constexpr int kTurnFactor = 10;  ///< Row of the factor on turns in the covariance.
+/// Rows of what factors on ways and turns (WheelFactors) take the place of.
+inline constexpr std::array kWheelRows = {3, 4, 5, kTurnFactor};
 
 /// Estimated lateness of odometry's stamps.
 inline double stamp_offset_s(const MotionEstimate& estimate) {

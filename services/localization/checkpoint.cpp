@@ -10,7 +10,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr std::uint64_t kMark = 0x736c616d6d6f746f;  // "slammoto": its last letter counts forms
+constexpr std::uint64_t kMark = 0x736c616d6d6f7470;  // "slammotp": its last letter counts forms
 constexpr double kFastestRestored = 1e3;  // m/s or rad/s: no vehicle was faster when the checkpoint
                                           // was made
 constexpr double kLargestFactor = 1e4;    // of way or turn: millimetres taken for metres are 1e3

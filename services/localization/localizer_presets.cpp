@@ -26,10 +26,11 @@ void set_robot(LocalizerConfig& config) {
   config.motion.heading_noise_rad = 0.004;
   config.motion.heading_noise_per_m = 0.05;
   config.motion.heading_noise_per_rad = 0.1;
-  config.motion.askew_prior_rad = 0.0;  // a sweep changes a scan much as a scanner mounted askew
-  config.motion.pivot_prior_m = 0.2;    // logs take the scanner for the middle, and it swings round
-                                        // it
-  config.motion.pivot_walk_m = 0.03;    // the wheels are not metres behind the middle
+  config.motion.turn_factor_prior = 0.0;  // turns slip, each differently
+  config.motion.askew_prior_rad = 0.0;    // a sweep changes a scan much as a scanner mounted askew
+  config.motion.pivot_prior_m = 0.2;  // logs take the scanner for the middle, and it swings round
+                                      // it
+  config.motion.pivot_walk_m = 0.03;  // the wheels are not metres behind the middle
   config.motion.speed_prior_mps = 1.5;
   config.match.proven_after_m = 0.0;     // a slow robot does not pitch
   config.match.information_share = 0.8;  // errors of scans half a metre apart are nearly
@@ -46,6 +47,7 @@ void set_car(LocalizerConfig& config) {
   config.motion.heading_noise_rad = defaults.motion.heading_noise_rad;
   config.motion.heading_noise_per_m = defaults.motion.heading_noise_per_m;
   config.motion.heading_noise_per_rad = defaults.motion.heading_noise_per_rad;
+  config.motion.turn_factor_prior = defaults.motion.turn_factor_prior;
   config.motion.askew_prior_rad = defaults.motion.askew_prior_rad;
   config.motion.pivot_prior_m = defaults.motion.pivot_prior_m;
   config.motion.pivot_walk_m = defaults.motion.pivot_walk_m;

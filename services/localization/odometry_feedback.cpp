@@ -128,10 +128,12 @@ void OdometryPrediction::adopt_wheel_factors() {
   const sensing::MotionEstimate fresh = sensing::at_start(motion_of_one_clock_);
   for (sensing::MotionEstimate* estimate :
        {&state_.estimate, &state_.with_stamp_offset, &state_.with_pivot}) {
-    estimate->calibration.head<3>().setZero();
-    estimate->covariance.middleRows<3>(3).setZero();
-    estimate->covariance.middleCols<3>(3).setZero();
-    estimate->covariance.block<3, 3>(3, 3) = fresh.covariance.block<3, 3>(3, 3);
+    for (const int row : sensing::kWheelRows) {
+      estimate->calibration[row - 3] = 0.0;
+      estimate->covariance.row(row).setZero();
+      estimate->covariance.col(row).setZero();
+      estimate->covariance(row, row) = fresh.covariance(row, row);
+    }
   }
 }
 
@@ -266,11 +268,10 @@ void OdometryPrediction::doubt_calibration(const Step& step, const ScanMatch& ma
 /// The map grows by what is matched to it, with the errors of those matches in it.
 void OdometryPrediction::renew_map(const Pose2& before_from_base, const ScanMatch& match) {
   const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
-  const double renewed_share =
-      1.0 - std::exp(-moved_m * match.new_share / config_.match.new_below_m);
-  state_.estimate = sensing::against_renewed_map(state_.estimate, renewed_share);
-  state_.with_stamp_offset = sensing::against_renewed_map(state_.with_stamp_offset, renewed_share);
-  state_.with_pivot = sensing::against_renewed_map(state_.with_pivot, renewed_share);
+  const double share = renewed_share(match, moved_m, config_.match.new_below_m);
+  state_.estimate = sensing::against_renewed_map(state_.estimate, share);
+  state_.with_stamp_offset = sensing::against_renewed_map(state_.with_stamp_offset, share);
+  state_.with_pivot = sensing::against_renewed_map(state_.with_pivot, share);
 }
 
 OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step,

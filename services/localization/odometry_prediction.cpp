@@ -30,18 +30,20 @@ bool is_still(const Pose2& by_wheels, double duration_s) {
 }
 
 /// Pairs of scans determine the factor on wheel distance to a few percent, less well than a usual
-/// prior.
-LocalizerConfig with_learned_scale(LocalizerConfig config) {
+/// prior. A sweep of another duration changes a scan of a turn much as a factor on the turn does:
+/// one of them is estimated.
+LocalizerConfig with_fitting_priors(LocalizerConfig config) {
   constexpr double kSigma = 0.08;
   if (config.belief.way_at_start != 1.0)
     config.motion.scale_prior = std::max(config.motion.scale_prior, kSigma);
+  if (config.echoes.sweep_factor_sigma > 0.0) config.motion.turn_factor_prior = 0.0;
   return config;
 }
 
 }  // namespace
 
 OdometryPrediction::OdometryPrediction(const LocalizerConfig& config)
-    : config_(with_learned_scale(config)),
+    : config_(with_fitting_priors(config)),
       motion_of_one_clock_(config_.motion),
       stamps_(config.odometry.far_ahead_s) {
   motion_of_one_clock_.stamp_offset_prior_s = 0.0;

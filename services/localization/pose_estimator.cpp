@@ -52,7 +52,7 @@ void PoseEstimator::learn(const ScanToPlace& placed, const Step& step, const Sca
   placed.counters.odometry.recalibrations = prediction_.state().belief.recalibrations;
   covariance_.observe(step, found);
   sweep_.observe(placed.scan, step, points_, found, placed.submaps.map().surfels());
-  placed.submaps.travel(matched_step(step, found));
+  placed.submaps.travel(matched_step(step, found), found);
   if (const auto error_m = watch_.compare(matched, prediction_)) placed.submaps.doubt(*error_m);
 }
 

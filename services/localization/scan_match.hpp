@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "common/geometry/uncertain_pose2.hpp"
 
 namespace slammot::localization {
@@ -16,5 +18,10 @@ struct ScanMatch {
   double new_share = 0.0;  ///< Share of the matched map that is new; 0 where was_sampled: the map
                            ///< says nothing of that direction.
 };
+
+/// Share of the matched map that a way of moved_m renews. new_below_m: see PointToLineConfig.
+inline double renewed_share(const ScanMatch& match, double moved_m, double new_below_m) {
+  return 1.0 - std::exp(-moved_m * match.new_share / new_below_m);
+}
 
 }  // namespace slammot::localization

@@ -79,7 +79,7 @@ std::optional<Step> StepExplanations::recalibrated(const Step& by_wheels) const 
   step.wheels.are_overruled = true;
   step.wheels.is_standing = false;
   sensing::MotionEstimate before = before_;
-  before.calibration.head<3>().setZero();
+  for (const int row : sensing::kWheelRows) before.calibration[row - 3] = 0.0;
   const geometry::Pose2 corrected = sensing::corrected(
       by_wheels.wheels.uncorrected, by_wheels.duration_s, belief_.estimator.factors());
   step.after = sensing::moved_by_wheels(before,

@@ -1,14 +1,17 @@
 #include "services/localization/submap_sequence.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "common/geometry/squared.hpp"
 #include "services/localization/submap_saliency.hpp"
 
 namespace slammot::localization {
 namespace {
 
 using geometry::Pose2;
+using geometry::squared;
 using geometry::UncertainPose2;
 
 constexpr double kShorterBy = 2.5;  // where it is not known where they lie, two are sooner there to
@@ -28,13 +31,17 @@ void SubmapSequence::begin() {
   map_ = LocalMap(config_.map, geometry::Vector2::Zero(), help_, first_submap_);
 }
 
-void SubmapSequence::travel(const Pose2& before_from_base) {
+/// The map drifts by the share of it that is renewed, times the match's variance. On streets that
+/// is what the settings say; where little tells the heading it is more.
+void SubmapSequence::travel(const Pose2& before_from_base, const ScanMatch& match) {
   const double moved_m = std::hypot(before_from_base.x_m, before_from_base.y_m);
   state_.travel.travelled_m += moved_m;
-  const double position_m2 =
-      config_.errors.drift_m_per_sqrt_m * config_.errors.drift_m_per_sqrt_m * moved_m;
+  const Eigen::Vector3d inherited = renewed_share(match, moved_m, config_.match.new_below_m) *
+                                    match.odom_from_base.covariance.diagonal();
+  const double position_m2 = std::max(squared(config_.errors.drift_m_per_sqrt_m) * moved_m,
+                                      0.5 * (inherited.x() + inherited.y()));
   const double heading_rad2 =
-      config_.errors.drift_rad_per_sqrt_m * config_.errors.drift_rad_per_sqrt_m * moved_m;
+      std::max(squared(config_.errors.drift_rad_per_sqrt_m) * moved_m, inherited.z());
   state_.travel.drift.diagonal() += Eigen::Vector3d(position_m2, position_m2, heading_rad2);
 }
 

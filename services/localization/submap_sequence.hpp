@@ -10,6 +10,7 @@
 #include "common/work/side_work.hpp"
 #include "services/localization/local_map.hpp"
 #include "services/localization/localizer_config.hpp"
+#include "services/localization/scan_match.hpp"
 #include "services/localization/submap_measurements.hpp"
 
 namespace slammot::localization {
@@ -46,7 +47,8 @@ class SubmapSequence {
   /// The first scan, at the origin of odom.
   void begin();
 
-  void travel(const geometry::Pose2& before_from_base);
+  /// What comes into view is mapped with the match's error: a tie is as loose as what it inherits.
+  void travel(const geometry::Pose2& before_from_base, const ScanMatch& match);
 
   /// The motion within the submap may be off by up to this much, in odom: evenly distributed.
   void doubt(const geometry::Vector2& up_to_m);

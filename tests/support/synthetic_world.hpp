@@ -141,11 +141,13 @@ struct WheelErrors {
   double scale = 1.0;                    ///< True distance by wheel distance.
   double heading_rate_bias_radps = 0.0;  ///< True turn rate less the one by wheels.
   double askew_rad = 0.0;                ///< True direction of the way, left of the one by wheels.
+  double turn_scale = 1.0;               ///< True turn by wheel turn.
 };
 
 inline geometry::Pose2 step_by_wheels(const geometry::Pose2& before_from_base, double duration_s,
                                       const WheelErrors& errors) {
-  const double missed_rad = errors.heading_rate_bias_radps * duration_s;
+  const double missed_rad = errors.heading_rate_bias_radps * duration_s +
+                            (1.0 - 1.0 / errors.turn_scale) * before_from_base.heading_rad;
   const geometry::Vector2 moved_m = geometry::rotation(-errors.askew_rad - 0.5 * missed_rad) *
                                     before_from_base.translation_m() / errors.scale;
   return {moved_m.x(), moved_m.y(),

@@ -21,6 +21,7 @@ using slammot::testing::step_by_wheels;
 using slammot::testing::WheelErrors;
 
 constexpr double kStep_s = 0.1;
+constexpr int kSpeed = kMotionStates - 2;  // row in the covariance
 const MotionModelConfig kConfig;
 
 /// What a match whose own answer is `measured` makes of the prediction: product of the two
@@ -106,6 +107,16 @@ TEST(MotionEstimate, TellsABiasByTimeFromOneByDistanceWhenTheSpeedChanges) {
       after_driving(2000, {.heading_rate_bias_radps = 0.01}, stop_and_go);
   EXPECT_NEAR(estimate.calibration.y(), 0.01, 0.002);
   EXPECT_NEAR(estimate.calibration.z(), 0.0, 0.0005);
+}
+
+TEST(MotionEstimate, LearnsAFactorOfTurnsFromBendsToBothSides) {
+  for (const double factor : {0.94, 1.06}) {
+    const MotionEstimate estimate = after_driving(1500, {.turn_scale = factor}, winding_street);
+    const double sigma = std::sqrt(estimate.covariance(kTurnFactor, kTurnFactor));
+    EXPECT_LT(sigma, 0.02);
+    EXPECT_NEAR(1.0 + estimate.calibration[kTurnFactor - 3], factor, 3.0 * sigma);
+    EXPECT_NEAR(estimate.calibration.y(), 0.0, 0.001);
+  }
 }
 
 TEST(MotionEstimate, LearnsThatTheScannerIsMountedAskew) {
@@ -495,8 +506,9 @@ TEST(MovedAtVelocity, IsAsUnsureInOneStepAsInMany) {
   const double floor_m2 = 99 * kConfig.position_noise_m * kConfig.position_noise_m;
   EXPECT_NEAR(in_many.covariance(0, 0) - floor_m2, in_one.covariance(0, 0),
               1e-3 * in_one.covariance(0, 0));
-  EXPECT_NEAR(in_many.covariance(10, 10), in_one.covariance(10, 10), 1e-9);
-  EXPECT_NEAR(in_many.covariance(0, 10), in_one.covariance(0, 10), 1e-3 * in_one.covariance(0, 10));
+  EXPECT_NEAR(in_many.covariance(kSpeed, kSpeed), in_one.covariance(kSpeed, kSpeed), 1e-9);
+  EXPECT_NEAR(in_many.covariance(0, kSpeed), in_one.covariance(0, kSpeed),
+              1e-3 * in_one.covariance(0, kSpeed));
 }
 
 TEST(MovedAtVelocity, KeepsItsCovarianceOneThroughALongStepThatTurns) {
@@ -530,9 +542,10 @@ TEST(MovedAtVelocity, LearnsTheVelocityFromTheLaserAlone) {
     estimate = matched(estimate, fused(estimate.uncertain_pose(),
                                        {seen, Eigen::Vector3d(4e-4, 4e-4, 1e-6).asDiagonal()}));
   }
-  EXPECT_NEAR(estimate.velocity.x(), 12.0, 4.0 * std::sqrt(estimate.covariance(10, 10)));
-  EXPECT_NEAR(estimate.velocity.y(), 0.2, 4.0 * std::sqrt(estimate.covariance(11, 11)));
-  EXPECT_LT(std::sqrt(estimate.covariance(10, 10)), 2.0);
+  EXPECT_NEAR(estimate.velocity.x(), 12.0, 4.0 * std::sqrt(estimate.covariance(kSpeed, kSpeed)));
+  EXPECT_NEAR(estimate.velocity.y(), 0.2,
+              4.0 * std::sqrt(estimate.covariance(kSpeed + 1, kSpeed + 1)));
+  EXPECT_LT(std::sqrt(estimate.covariance(kSpeed, kSpeed)), 2.0);
 }
 
 TEST(MovedByWheels, TakesTheVelocityFromThem) {
@@ -540,7 +553,7 @@ TEST(MovedByWheels, TakesTheVelocityFromThem) {
       moved_by_wheels(at_velocity({1.0, 1.0}, {5.0, 5.0}), {{0.8, 0.0, 0.02}, kStep_s}, kConfig);
   EXPECT_NEAR(after.velocity.x(), 8.0, 1e-6);
   EXPECT_NEAR(after.velocity.y(), 0.2, 1e-6);
-  EXPECT_EQ((after.covariance.block<10, 2>(0, 10).norm()), 0.0);
+  EXPECT_EQ((after.covariance.block<kSpeed, 2>(0, kSpeed).norm()), 0.0);
 }
 
 }  // namespace

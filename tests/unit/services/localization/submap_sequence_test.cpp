@@ -32,8 +32,8 @@ class SubmapSequenceTest : public ::testing::Test {
         0.0);
   }
 
-  void go(double way_m) {
-    submaps_.travel({way_m, 0.0, 0.0});
+  void go(double way_m, const ScanMatch& match = {}) {
+    submaps_.travel({way_m, 0.0, 0.0}, match);
     odom_from_base_.x_m += way_m;
   }
 
@@ -72,6 +72,24 @@ TEST_F(SubmapSequenceTest, TiesASubmapToTheOneBeforeByTheDriftOfTheWay) {
       PoseNear(geometry::inverse(first->odom_from_submap) * second->odom_from_submap, 1e-9));
   EXPECT_NEAR(std::sqrt(second->previous_from_submap.covariance(0, 0)),
               LocalizerConfig{}.errors.drift_m_per_sqrt_m * 4.0, 1e-9);
+}
+
+TEST_F(SubmapSequenceTest, TiesASubmapAsLooselyAsTheMatchesThatItInheritsFrom) {
+  ScanMatch unsure;
+  unsure.new_share = 0.5;
+  unsure.odom_from_base.covariance = Eigen::Vector3d(0.01, 0.01, 1e-4).asDiagonal();
+  see_something();
+  for (int step = 0; step < 110; ++step) go(0.1, unsure);
+  ASSERT_TRUE(submaps_.begin_next_if_due(odom_from_base_));
+  see_something();
+  ASSERT_TRUE(submaps_.finish(odom_from_base_));
+  ASSERT_TRUE(submaps_.take_finished());
+  const auto next = submaps_.take_finished();
+  ASSERT_TRUE(next);
+  const double renewed = 110.0 * (1.0 - std::exp(-0.1 * 0.5 / 2.0));
+  const geometry::Matrix3& covariance = next->previous_from_submap.covariance;
+  EXPECT_NEAR(covariance(0, 0), renewed * 0.01, 1e-9);
+  EXPECT_NEAR(covariance(2, 2), renewed * 1e-4, 1e-9);
 }
 
 TEST_F(SubmapSequenceTest, TiesASubmapLooselyAlongAMotionThatIsInDoubt) {
