@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <type_traits>
+#include <utility>
 
 #include "common/dds/config.hpp"
 #include "common/dds/raw_writer.hpp"
@@ -65,11 +66,13 @@ class Decoder {
       const auto writer =
           std::make_shared<dds::RawWriter>(participant_, playable->topic, playable->qos);
       const auto reader = std::make_shared<dds::Reader<Sample>>(participant_, topic);
-      takes_[id] = [this, writer, reader](const mcap::Message& message) {
+      takes_[id] = [this, writer, reader,
+                    cut = std::uint64_t{0}](const mcap::Message& message) mutable {
         if (writer->write({message.data, message.head.publish_time_ns}) !=
             dds::RawWriteResult::kWritten)
           ++result_.dropped;
         reader->take_each([this](const Sample& sample) { take(sample); });
+        result_.dropped += reader->cut() - std::exchange(cut, reader->cut());
       };
     }
   }
