@@ -1,5 +1,6 @@
 #include "common/dds/raw_topic.hpp"
 
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -26,6 +27,17 @@ RawType compiled_type(const TopicInfo& topic) {
   return {std::string(topic.type_name()),
           {information.data, information.data + information.sz},
           {mapping.data, mapping.data + mapping.sz}};
+}
+
+/// Whether an appendable structure is among the members, sequences aside.
+bool has_appendable_part(const TypeModel& model, const NamedType& type) {
+  return std::ranges::any_of(type.members, [&](const TypeMember& member) {
+    const TypeUse& use =
+        member.type.kind == TypeKind::kArray ? member.type.element.front() : member.type;
+    const NamedType* const part = use.kind == TypeKind::kNamed ? model.find(use.name) : nullptr;
+    return part != nullptr && part->kind == NamedType::Kind::kStruct &&
+           (part->extensibility != Extensibility::kFinal || has_appendable_part(model, *part));
+  });
 }
 
 slammot_LaserScan scan(std::vector<float>& ranges) {
@@ -75,6 +87,15 @@ TEST_F(RawTopicOnTheBus, EveryTypeComesBackFromItsDescription) {
     EXPECT_EQ(raw->type(), type) << topic->name;
     EXPECT_EQ(raw->model().types.back().name, topic->type_name());
     EXPECT_TRUE(is_keyed(raw->model()));
+  }
+}
+
+TEST_F(RawTopicOnTheBus, TypesWithAnAppendableStructureStateTheirLeastBytes) {
+  for (const TopicInfo* topic : topic_table()) {
+    const auto raw = RawTopic::of_type(std::string(topic->name), compiled_type(*topic));
+    ASSERT_TRUE(raw) << topic->name;
+    EXPECT_EQ(topic->least_bytes > 0, has_appendable_part(raw->model(), raw->model().types.back()))
+        << topic->name;
   }
 }
 
