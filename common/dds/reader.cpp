@@ -1,7 +1,5 @@
 #include "common/dds/reader.hpp"
 
-#include <algorithm>
-
 #include <dds/dds.h>
 #include <dds/ddsi/ddsi_serdata.h>
 
@@ -59,8 +57,10 @@ void LoanBase::take(ReaderBase& reader) {
   const dds_return_t count = check(dds_take(reader_, samples_.data(), infos.data(), kMost, kMost),
                                    reader.describe("dds_take"));
   size_ = static_cast<std::size_t>(count);
-  for (std::size_t i = 0; i < size_; ++i) infos_[i] = to_info(infos[i]);
-  reader.taken_ += count_values();
+  for (std::size_t i = 0; i < size_; ++i) {
+    infos_[i] = to_info(infos[i]);
+    reader.taken_ += infos_[i].has_value ? 1 : 0;
+  }
 }
 
 void LoanBase::take_whole(ReaderBase& reader) {
@@ -80,19 +80,13 @@ void LoanBase::take_whole(ReaderBase& reader) {
       if (is_kept) {
         samples_[size_] = sample;
         infos_[size_++] = to_info(infos[i]);
+        reader.taken_ += infos[i].valid_data ? 1 : 0;
       } else {
         dds_sample_free(sample, type_of_own_, DDS_FREE_ALL);
         ++reader.cut_;
       }
     }
   }
-  reader.taken_ += count_values();
-}
-
-std::uint64_t LoanBase::count_values() const {
-  return static_cast<std::uint64_t>(
-      std::count_if(infos_.begin(), infos_.begin() + static_cast<std::ptrdiff_t>(size_),
-                    [](const SampleInfo& info) { return info.has_value; }));
 }
 
 ReaderBase::ReaderBase(const Participant& participant, const TopicInfo& info, History history)

@@ -57,7 +57,6 @@ class LoanBase {
   void take(ReaderBase& reader);
   /// The same; leaves out what ends before an appendable structure within it.
   void take_whole(ReaderBase& reader);
-  std::uint64_t count_values() const;
 
   Entity::Handle reader_;
   const dds_topic_descriptor* type_of_own_ = nullptr;  // of samples that are not the library's

@@ -46,19 +46,12 @@ class Deserializer {
         ddsi_serdata_from_ser_iov(example_->type, SDK_DATA, 1, &part, padded.size());
     if (data == nullptr) return;
     Sample sample{};
-    if (read(data, sample)) use(sample);
+    if (dds::read_whole(data, reader_.topic().least_bytes, &sample)) use(sample);
     dds_sample_free(&sample, reader_.topic().type, DDS_FREE_CONTENTS);
     ddsi_serdata_unref(data);
   }
 
  private:
-  /// As a reader does.
-  bool read(const ddsi_serdata* data, Sample& into) const {
-    const std::uint32_t least_bytes = reader_.topic().least_bytes;
-    return least_bytes > 0 ? dds::read_whole(data, least_bytes, &into)
-                           : ddsi_serdata_to_sample(data, &into, nullptr, nullptr);
-  }
-
   static const dds::Participant& participant() {
     static const testing::PrivateBus bus;
     static const dds::Participant joined = bus.join("fuzz");
