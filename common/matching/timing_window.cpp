@@ -9,9 +9,9 @@ namespace slammot::matching {
 namespace {
 
 constexpr std::size_t kFewestInWindow = 5;
-constexpr double kFactorSigma = 0.1;  // of the common factor of turns, and of ways: that of a log
-                                      // is known before
-constexpr std::size_t kBendOver = 2;  // delays to either side: there the errors are a parabola
+constexpr double kLogFactorSigma = 0.1;  // of the common factor of turns, and of ways: that of a
+                                         // log is known before
+constexpr std::size_t kBendOver = 2;     // delays to either side: there the errors are a parabola
 
 }  // namespace
 
@@ -54,7 +54,7 @@ double TimingWindow::error_at(std::size_t delay, bool of_turns) const {
             return TwiceMeasured{quantity.by_scans, quantity.sigma, quantity.by_odometry[delay]};
           })
           .used(),
-      kFactorSigma);
+      kLogFactorSigma);
 }
 
 double TimingWindow::information_at(std::size_t delay, bool of_turns) const {
@@ -69,7 +69,7 @@ double TimingWindow::information_at(std::size_t delay, bool of_turns) const {
                                                         quantity.sigma};
                                })
           .used(),
-      kFactorSigma);
+      kLogFactorSigma);
 }
 
 std::optional<TimingEvidence> TimingWindow::evidence() const {

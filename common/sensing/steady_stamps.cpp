@@ -9,7 +9,7 @@
 namespace slammot::sensing {
 namespace {
 
-constexpr std::size_t kFewestScans = 200;
+constexpr std::size_t kFewestStamps = 200;
 constexpr std::size_t kHalfWindow = 15;   // scans to either side
 constexpr double kSlowest_s = 0.2;        // period
 constexpr double kRegular_s = 5e-4;       // less noise is left as it is,
@@ -124,13 +124,13 @@ std::vector<double> smoothed(const std::vector<double>& offsets_s, double noise_
 }  // namespace
 
 bool are_regular_in_another_order(std::span<const std::int64_t> stamps_ns) {
-  if (stamps_ns.size() < kFewestScans) return false;
+  if (stamps_ns.size() < kFewestStamps) return false;
   const double period_s = period_of(stamps_ns);
   return period_s > 0.0 && are_regular_in_another_order(stamps_ns, period_s);
 }
 
 std::optional<SteadyStamps> steady_stamps(std::span<const std::int64_t> stamps_ns) {
-  if (stamps_ns.size() < kFewestScans) return std::nullopt;
+  if (stamps_ns.size() < kFewestStamps) return std::nullopt;
   SteadyStamps steady;
   steady.period_s = period_of(stamps_ns);
   if (!(steady.period_s > 0.0) || steady.period_s > kSlowest_s ||
