@@ -12,6 +12,13 @@ constexpr int kFewestOnFlank = 3;  ///< Echoes on a flank that tell where it end
 
 using geometry::squared;
 
+/// True for one or two echoes beside which the next beams pass on both sides: they tell how wide
+/// the body can be.
+bool is_passed_on_both_sides(const Projection& projection) {
+  return projection.count < kFewestOnFlank && projection.low_edge == Edge::kOpen &&
+         projection.high_edge == Edge::kOpen;
+}
+
 /// The laser lies beyond the low side. The high end is the end of the flank, if the flank is
 /// visible.
 void add_sizes_from_low_side(SizeEvidence& evidence, const Projection& projection,
@@ -36,7 +43,8 @@ void add_sizes_from_beside(SizeEvidence& evidence, const Projection& projection,
   add_part(evidence, projection.high_m - projection.low_m);
   const double spacing_m = std::max(view.low.spacing_m, view.high.spacing_m);
   if (projection.low_edge != Edge::kHidden && projection.high_edge != Edge::kHidden &&
-      spacing_m < view.clear_spacing_m && projection.count >= kFewestOnFlank)
+      spacing_m < view.clear_spacing_m &&
+      (projection.count >= kFewestOnFlank || is_passed_on_both_sides(projection)))
     add_whole(
         evidence,
         {projection.high_m - projection.low_m + flat_beyond_m(view, view.low, projection.low_edge) +
@@ -131,7 +139,7 @@ AxisMeasurement measure_axis(const Size& size, const Projection& projection, con
 
 void add_sizes(SizeEvidence& evidence, const Size& size, const Projection& projection,
                const AxisView& view, bool is_flank_visible) {
-  if (std::abs(view.laser_at_m) <= 0.5 * size.value_m)
+  if (is_passed_on_both_sides(projection) || std::abs(view.laser_at_m) <= 0.5 * size.value_m)
     add_sizes_from_beside(evidence, projection, view);
   else if (view.laser_at_m < 0.0)
     add_sizes_from_low_side(evidence, projection, view, is_flank_visible);

@@ -19,8 +19,9 @@ constexpr double kMappedScorePerS = -6.0;   ///< is mapped structure: IDF1 of `c
 constexpr double kOccludedScorePerS = -1.0;
 constexpr double kHiddenScorePerS = -0.3;  ///< May leave unseen.
 constexpr double kOutOfViewScorePerS = -30.0;
-constexpr double kPassedBeamScore = -0.6;  ///< Of each beam through the predicted extent,
-constexpr double kMostPassedScore = -2.0;  ///< and of all of them in one scan at most.
+constexpr double kPassedBeamScore = -0.6;    ///< Of each beam through the predicted extent,
+constexpr double kMostPassedScore = -2.0;    ///< and of all of them in one scan at most.
+constexpr double kIndependentAfterS = 0.15;  ///< Neighbouring scans see the same beams pass.
 
 void add_faded(MotionEvidence& sum, const MotionEvidence& evidence, double fade) {
   sum.moved = fade * sum.moved + evidence.moved;
@@ -42,6 +43,14 @@ bool is_contradicted(const Track& track, const MotionEvidence& evidence, bool is
 bool makes_no_progress(const Track& track, const TrackingConfig& config) {
   return track.velocity_mps().norm() < moving_above_mps(config) ||
          track.existence.travel.without_progress_s > kLongestStandS;
+}
+
+/// Of a miss. Beams pass beside the legs of a pedestrian far away and between them, and those of
+/// the next scans do so, too.
+double weight_of_miss(const Track& track, int beams, double time_s) {
+  constexpr int kFewBeams = 3;
+  return may_be_pedestrian(track) && beams <= kFewBeams ? std::min(1.0, time_s / kIndependentAfterS)
+                                                        : 1.0;
 }
 
 }  // namespace
@@ -84,11 +93,11 @@ void score_miss(Track& track, const Visibility& visibility, double time_s,
                                                                                  // occluded object
                                                                                  // is missed less
                                                                                  // surely
-  track.existence.score += std::max(kMostPassedScore, kPassedBeamScore * passed) * share;
+  track.existence.score += weight_of_miss(track, visibility.beams, time_s) *
+                           std::max(kMostPassedScore, kPassedBeamScore * passed) * share;
 }
 
 void score_unseen(Track& track, double time_s) {
-  constexpr double kIndependentAfterS = 0.15;  // neighbouring scans see the same beams pass
   constexpr double kLeastLikelihood = 0.02;
   track.existence.score +=
       kHiddenScorePerS * time_s +

@@ -70,6 +70,21 @@ TEST(AxisMeasurement, SaysHowLongAFlankIsThatIsVisibleFromEndToEnd) {
   EXPECT_EQ(cut_off.whole.variance_m2, kUnknownSizeM2);
 }
 
+TEST(AxisMeasurement, SaysHowWideABodyIsOfWhichTheNextBeamsPassBeside) {
+  const auto width_seen = [](Edge high, double laser_at_m) {
+    Projection one = flank(0.0, 0.0, Edge::kOpen, high);
+    one.count = 1;
+    SizeEvidence evidence;
+    add_sizes(evidence, {2.35, 0.04}, one, view_from(laser_at_m), true);
+    return evidence.whole;
+  };
+  for (const double laser_at_m : {0.0, -3.0}) {
+    EXPECT_NEAR(width_seen(Edge::kOpen, laser_at_m).value_m, 0.1, 1e-3) << laser_at_m;  // a spacing
+    EXPECT_EQ(width_seen(Edge::kNoEcho, laser_at_m).variance_m2, kUnknownSizeM2) << laser_at_m;
+    EXPECT_EQ(width_seen(Edge::kHidden, laser_at_m).variance_m2, kUnknownSizeM2) << laser_at_m;
+  }
+}
+
 TEST(AxisMeasurement, MakesAStepWhenItsAnchorChanges) {
   EXPECT_EQ(step_variance_m2(1, 1, kCarLength), 0.0);
   EXPECT_EQ(step_variance_m2(std::nullopt, 1, kCarLength), 0.0);

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "services/tracking/confirmation.hpp"
 #include "services/tracking/measurement_update.hpp"
+#include "services/tracking/termination.hpp"
 #include "services/tracking/track_initiation.hpp"
 #include "tests/support/example_tracks.hpp"
 
@@ -48,6 +50,23 @@ TEST(ExistenceScore, IsBelievedInLessWhereMoreBeamsPassThroughTheMiddleOfItThanA
   EXPECT_EQ(track.existence.score, 5.0);
   score_passed(track, seen, 2);
   EXPECT_LT(track.existence.score, 4.0);
+}
+
+/// After 30 scans, each third with a moving echo and the others with so many beams through it.
+double score_of_rare_answers(Track track, int beams) {
+  const TrackingConfig config;
+  track.existence.score = 0.0;
+  for (int scan = 0; scan < 30; ++scan)
+    if (scan % 3 < 2) score_miss(track, {beams, 0, beams, 0}, kPeriodS, config);
+    else score_hit(track, {flow::PointLabel::kMoving, {1.0, 0.0, 0.0}, kPeriodS}, config);
+  return track.existence.score;
+}
+
+TEST(ExistenceScore, OfAPedestrianFarAwayRisesThoughTwoOfThreeScansHaveNoEcho) {
+  const Track walker = testing::known_walker(20.0, {});
+  EXPECT_GT(score_of_rare_answers(walker, 1), kConfirmScore);
+  EXPECT_LT(score_of_rare_answers(walker, 6), kRejectScore);  // a near one would send echoes
+  EXPECT_LT(score_of_rare_answers(followed_car(), 1), kRejectScore);
 }
 
 TEST(ExistenceScore, OfWhatTheMapContradictsIsSomethingThoughItIsDrawnTooLarge) {
