@@ -4,12 +4,12 @@
 include(GoogleTest)
 
 # What nearly every source includes, compiled once: a tenth of the time of a clean build. A source that relies on it for what it
-# does not include itself fails in `deploy/tidy --syntax --changed`, which does without.
-# Options of GCC: the first is what ccache needs; with the others it collects its garbage less often, a tenth of its time for a fifth more
-# memory (up to 1.7 GB a source).
+# does not include itself fails in `deploy/tidy --syntax --changed`, which does without. Of GCC's options the first is what ccache
+# needs; with the others GCC collects its garbage less often: a tenth of its time for a fifth more memory (up to 1.7 GB a source).
 set(SLAMMOT_GCC_OPTIONS
     "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;--param=ggc-min-expand=1000;--param=ggc-min-heapsize=1000000>")
 set(SLAMMOT_LIBRARY_OPTIONS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion ${SLAMMOT_GCC_OPTIONS})
+
 # slammot_precompile(core_headers LINK Eigen3::Eigen OPTIONS -Wall HEADERS <vector> <string>): other targets take these headers by REUSE_FROM.
 # ccache would hash a precompiled header, of 140 MB, for each source that uses it: half a second each. It takes the sum beside it
 # instead, of what the header is made from.
