@@ -40,6 +40,27 @@ std::vector<PairEquations> equations_of(std::span<const PairMotion> motions) {
   return equations;
 }
 
+double huber_weight(double scale_m, double residual_m) {
+  return std::min(1.0, kHuber * scale_m / std::max(residual_m, 1e-9));
+}
+
+/// Of the unknowns: the larger of what the median residual says, and of what the residuals
+/// themselves say (White 1980), as pairs that turn much may be registered worse.
+Eigen::Vector4d standard_errors(const std::vector<PairEquations>& equations,
+                                const std::vector<double>& residuals_m, double scale_m,
+                                const Eigen::Vector4d& solution,
+                                const Eigen::Matrix4d& covariance) {
+  Eigen::Matrix4d scatter = Eigen::Matrix4d::Zero();
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    const Eigen::Vector2d residual_m = equations[i].of_unknowns * solution - equations[i].right;
+    const Eigen::Vector4d score =
+        huber_weight(scale_m, residuals_m[i]) * equations[i].of_unknowns.transpose() * residual_m;
+    scatter += score * score.transpose();
+  }
+  const Eigen::Vector4d variances = (covariance * scatter * covariance).diagonal();
+  return variances.cwiseMax(scale_m * scale_m * covariance.diagonal()).cwiseSqrt();
+}
+
 }  // namespace
 
 std::optional<OdometryPoint> odometry_point(std::span<const PairMotion> motions) {
@@ -53,7 +74,7 @@ std::optional<OdometryPoint> odometry_point(std::span<const PairMotion> motions)
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (std::size_t i = 0; i < equations.size(); ++i) {
-      const double weight = std::min(1.0, kHuber * scale_m / std::max(residuals_m[i], 1e-9));
+      const double weight = huber_weight(scale_m, residuals_m[i]);
       const Equations& of_unknowns = equations[i].of_unknowns;
       normal += weight * of_unknowns.transpose() * of_unknowns;
       right += weight * of_unknowns.transpose() * equations[i].right;
@@ -68,9 +89,12 @@ std::optional<OdometryPoint> odometry_point(std::span<const PairMotion> motions)
     scale_m = std::max(geometry::upper_median(residuals_m), kLeastResidual_m);
   }
   const double way = solution.tail<2>().norm();
-  const Eigen::Vector4d sigma = scale_m * covariance.diagonal().cwiseSqrt();
-  return OdometryPoint{{solution(0), solution(1), std::atan2(solution(3), solution(2))},
-                       {sigma(0), sigma(1), std::hypot(sigma(2), sigma(3)) / (M_SQRT2 * way)}};
+  // The way of odometry's point is counted with that factor, too: the first two unknowns hold it.
+  const Eigen::Vector2d place_m = solution.head<2>() / way;
+  const Eigen::Vector4d sigma =
+      standard_errors(equations, residuals_m, scale_m, solution, covariance) / way;
+  return OdometryPoint{{place_m.x(), place_m.y(), std::atan2(solution(3), solution(2))},
+                       {sigma(0), sigma(1), std::hypot(sigma(2), sigma(3)) / M_SQRT2}};
 }
 
 }  // namespace slammot::matching

@@ -57,9 +57,10 @@ TEST(OdometryPoint, IsFoundAmongWrongMatches) {
   EXPECT_NEAR(found->odometry_from_laser.heading_rad, kOdometryFromLaser.heading_rad, 0.01);
 }
 
-TEST(OdometryPoint, HasTheDirectionWhateverTheWayCounts) {
+TEST(OdometryPoint, HasItsPlaceAndDirectionWhateverTheWayCounts) {
   const auto found = odometry_point(motions(60, 0.4, {.odometry_scale = 1.2}));
   ASSERT_TRUE(found);
+  EXPECT_THAT(found->odometry_from_laser, PoseNear(kOdometryFromLaser, 1e-9));
   EXPECT_NEAR(found->odometry_from_laser.heading_rad, kOdometryFromLaser.heading_rad, 1e-9);
 }
 
