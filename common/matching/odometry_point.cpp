@@ -89,6 +89,7 @@ std::optional<OdometryPoint> odometry_point(std::span<const PairMotion> motions)
     scale_m = std::max(geometry::upper_median(residuals_m), kLeastResidual_m);
   }
   const double way = solution.tail<2>().norm();
+  if (!(way > 0.0)) return std::nullopt;  // odometry counts nothing
   // The way of odometry's point is counted with that factor, too: the first two unknowns hold it.
   const Eigen::Vector2d place_m = solution.head<2>() / way;
   const Eigen::Vector4d sigma =

@@ -85,9 +85,10 @@ TEST(OdometryPoint, IsAsUncertainAsItSays) {
   }
 }
 
-TEST(OdometryPoint, IsUnknownWithoutTurnsAndFromFewMotions) {
+TEST(OdometryPoint, IsUnknownWithoutTurnsFromFewMotionsAndFromWheelsThatCountNothing) {
   EXPECT_FALSE(odometry_point(motions(60, 0.0, {})));
   EXPECT_FALSE(odometry_point(motions(10, 0.4, {})));
+  EXPECT_FALSE(odometry_point(motions(60, 0.4, {.odometry_scale = 0.0})));
 }
 
 }  // namespace
