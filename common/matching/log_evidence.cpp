@@ -212,6 +212,8 @@ void place_odometry(const OdometryPoint& point, const AssumedBeams& beams,
   constexpr double kSigmas = 4.0;
   constexpr double kMostSigma_rad = 0.02;  // more, and pairs were matched wrongly
   constexpr double kMostSigma_m = 0.3;
+  // The motion between two poses whose turns are mirrored is not that which is read step by step.
+  if (correction.integrates_turns_anew) return;
   if (point.sigma.heading_rad > kMostSigma_rad) return;
   const Pose2& found = point.odometry_from_laser;
   const double turned_rad = wrap_angle(found.heading_rad - beams.laser_heading_rad);

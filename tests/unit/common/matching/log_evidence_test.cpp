@@ -179,6 +179,7 @@ TEST(WeighLog, MirrorsOdometryThatTurnsAgainstItsOwnArcs) {
   EXPECT_TRUE(evidence.correction.mirrors_position);
   EXPECT_TRUE(evidence.correction.mirrors_heading);
   EXPECT_FALSE(evidence.correction.reverses_beams);
+  EXPECT_EQ(evidence.correction.odometry_from_base, Pose2::identity());
   EXPECT_TRUE(evidence.handedness_is_told);
 }
 
