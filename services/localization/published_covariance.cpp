@@ -24,7 +24,7 @@ void PublishedCovariance::observe(const Step& step, const ScanMatch& match) {
   }
   state_.factors = sensing::carried(state_.factors, step.odom_from_base_before, step.prior(),
                                     match.odom_from_base);
-  const double now = step.source == StepSource::kVelocityAlone && !step.has_wheels() ? 1.0 : 0.0;
+  const double now = step.source == StepSource::kVelocityAlone ? 1.0 : 0.0;
   state_.by_scans_alone +=
       (1.0 - std::exp(-step.duration_s / kComparedOver_s)) * (now - state_.by_scans_alone);
   const geometry::Pose2 before_from_base = matched_step(step, match);

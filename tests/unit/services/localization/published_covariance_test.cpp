@@ -70,6 +70,17 @@ TEST(PublishedCovariance, IsLargerThanThatWithinTheLocalMapWhereScansAloneTell) 
               1e-9);
 }
 
+TEST(PublishedCovariance, CountsWheelsThatAreOverruledAsNone) {
+  const LocalizerConfig config;
+  PublishedCovariance covariance{config};
+  Step step = step_with_sigma(0.01);
+  step.source = StepSource::kVelocityAlone;
+  step.wheels.are_overruled = true;
+  for (int scan = 0; scan < 100; ++scan) covariance.observe(step, match_at(0.0, 0.005));
+  EXPECT_NEAR(covariance.published(step.after, false).local_variance_share,
+              1.0 / config.errors.variance_by_scans_alone, 1e-3);
+}
+
 TEST(PublishedCovariance, IsAnywhereOfALostVehicleButNotWithinTheLocalMap) {
   const LocalizerConfig config;
   const PublishedCovariance covariance{config};
