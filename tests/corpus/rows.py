@@ -12,6 +12,7 @@ HERE = pathlib.Path(__file__).parent
 ROOT = HERE.parents[1]
 STAMP_WAYS = ("stamps-zero", "stamps-index", "stamps-seconds")
 QUICK_WAYS = ("way-1.3", "noise-5cm")
+TOO_LITTLE_SEEN = ("range-8m",)  # in a street
 SIMULATED_SCENARIOS = ("block", "office", "demo")
 THREE_SEEDS = (11, 12, 13)
 INDOOR_SCENARIOS = ("office", "corridor")
@@ -96,6 +97,10 @@ def indoor_three(drives):
     return named(drives, ("intel", "aces", "freiburg-101"))
 
 
+def quick_simulated():
+    return [dataclasses.replace(simulated("block", 12), quick_ate_m=0.06)]
+
+
 def recorded_simulated(drives):
     return [drive for drive in drives if drive.simulated]
 
@@ -122,6 +127,8 @@ SETS = {
     "look-alike": lambda drives: [Row(drive, way) for drive in seeds_of(("office", "corridor"), range(301, 309)) + seeds_of(("block",), range(301, 305))
                                   for way in ("", "range-5m")],
     "quick": lambda drives: altered(indoor_three(drives), lambda drive: QUICK_WAYS),
+    "quick-ways": lambda drives: altered(quick_simulated(), lambda drive: [way for way in standard_ways(drive) if way not in TOO_LITTLE_SEEN]),
     "ways": lambda drives: altered(drives, standard_ways),  # for --ways
 }
-SETS_OF_WANTED = [name for name in SETS if name not in ("quick", "ways")]
+QUICK_SETS = ("quick", "quick-ways")  # for ctest, with limits of their own
+SETS_OF_WANTED = [name for name in SETS if name not in (*QUICK_SETS, "ways")]

@@ -4,6 +4,7 @@ import math
 import re
 
 import verdict
+from rows import QUICK_SETS
 
 
 def metres(value):
@@ -77,7 +78,7 @@ def columns(set_name, has_figures, has_other):
     if set_name == "look-alike":
         chosen.append(("look alike", lambda r, o, b, base, f: str(o.look_alike or 0)))
         chosen.append(("falsely joined", lambda r, o, b, base, f: "" if o.joined is None else str(o.joined)))
-    chosen.append(("as wanted", lambda r, o, b, base, f: "no" if f else "" if r.is_base and set_name != "quick" else "yes"))
+    chosen.append(("as wanted", lambda r, o, b, base, f: "no" if f else "" if r.is_base and set_name not in QUICK_SETS else "yes"))
     chosen.append(("what was found", lambda r, o, b, base, f: found(set_name, o, r, base, f)))
     return chosen
 

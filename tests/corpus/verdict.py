@@ -5,6 +5,7 @@ import statistics
 
 import ways
 from figures import difference
+from rows import QUICK_SETS
 
 SCAN_MS = 20.0
 CLOSING_MS = 200.0
@@ -28,7 +29,7 @@ def is_known(value):
 def ate_limit(set_name, row, base):
     """Metres, or None: no limit."""
     drive = row.drive
-    if set_name == "quick":
+    if set_name in QUICK_SETS:
         return (QUICK_ALTERED_ATE if row.way else 1.0) * drive.quick_ate_m
     if not row.way:
         return drive.ate_m if set_name == "real" else None
@@ -125,7 +126,7 @@ def by_drive(results):
 def summary(set_name, results, missed):
     """Sentences on the whole set, and whether one of them says that it fails. results: (row, outcome, outcome of the other binary)."""
     sentences, fails = [], False
-    judged = [row for row, _, _ in results if not row.is_base or set_name == "quick"]
+    judged = [row for row, _, _ in results if not row.is_base or set_name in QUICK_SETS]
     as_wanted = [row for row in judged if not missed[row.name()]]
     of_row = {row.name(): outcome for row, outcome, _ in results}
     by_covariance = sum(is_within_covariance(set_name, row, of_row.get(row.base()), of_row[row.name()]) for row in as_wanted)
