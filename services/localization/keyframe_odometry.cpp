@@ -39,6 +39,7 @@ constexpr double kStill_m = 0.01;
 constexpr double kStill_rad = 0.002;
 constexpr double kLongStanding_s = 0.4;  // between two keyframes: a car that sets off is then
                                          // within reach of a match
+constexpr double kStops_s = 0.1;  // without motion by the wheels: one step may be less than a tick
 constexpr std::int64_t kAgain_ns = 200'000'000;
 constexpr double kPatience_s = 4.0;     // with one keyframe
 constexpr double kAsWell = 0.97;        // of the fit
@@ -47,6 +48,11 @@ constexpr double kMostEchoes = 1000.0;  // weight limit: more than a scan has
 
 bool stands(const Pose2& moved) {
   return std::hypot(moved.x_m, moved.y_m) < kStill_m && std::abs(moved.heading_rad) < kStill_rad;
+}
+
+/// At the scan that tells that the wheels do not count any more.
+bool has_stopped_now(const Step& step) {
+  return step.wheels.stood_s >= kStops_s && step.wheels.stood_s - step.duration_s < kStops_s;
 }
 
 bool is_far(const Pose2& moved) {
@@ -212,6 +218,11 @@ std::optional<sensing::OdometryComparison> KeyframeOdometry::observe(const Seen&
     // would mix them.
     state_.way_ratio.doubt();
     state_.is_in_doubt = true;
+    begin(seen);
+    return std::nullopt;
+  }
+  if (has_stopped_now(step)) {
+    // What the wheels say from here on is judged by itself: the vehicle may go on.
     begin(seen);
     return std::nullopt;
   }

@@ -322,6 +322,20 @@ TEST(OdometryFaultsOfACarThatSetsOff, DoNotHoldThePoseForLongWhereWheelsNeverMov
   expect_good(drive_with(car_that_sets_off(), frozen, kScans), 1.0);
 }
 
+/// From 4 s on with 1 m/s^2, 37.5 scans a second; the wheels freeze at 0.4 m/s.
+TEST(OdometryFaultsOfACarThatSetsOff, LoseNoWayWhereWheelsFreezeInTheBeginning) {
+  constexpr double kSetsOff_s = 4.0;
+  DriveSetup setup = weaving_along_a_street(1.0, 1.0 / 37.5);
+  const auto along = setup.world_from_base_at;
+  setup.world_from_base_at = [along](double time_s) {
+    const double driven_s = std::max(0.0, time_s - kSetsOff_s);
+    return along(0.5 * driven_s * driven_s);
+  };
+  const DriveResult result = drive_with(setup, during(kSetsOff_s + 0.4, 1e9, frozen), 300);
+  EXPECT_LT(std::abs(result.error.x_m), 0.2);
+  EXPECT_LT(std::abs(result.error.y_m), 0.1);
+}
+
 TEST(OdometryFaultsOfACar, DISABLED_LeaveTheCovarianceHonest) {
   for (const Fault& fault : {scaled(1.3, 1.0), scaled(1.0, -1.0), during(6.0, 12.0, frozen)}) {
     const DriveResult result = drive_with(car(), fault, kScans);
