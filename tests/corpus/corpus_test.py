@@ -192,6 +192,12 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(["ATE over 0.100 m"], faults(*self.simulated_row("range-8m", 1.5, nees=None)))
         self.assertEqual(["ATE over 0.100 m"], faults(*self.simulated_row("range-8m", math.nan)))
 
+    def test_hold_the_quick_street_to_its_covariance(self):
+        faults = lambda nees: verdict.faults("quick-ways", rows.Row(DRIVE, "frozen-6s"), outcome(), outcome(0.02, figures={"nees": nees}))
+        self.assertEqual([], faults(4.0))
+        self.assertEqual(["NEES outside 1.5 to 8"], faults(17.7))
+        self.assertEqual(["NEES outside 1.5 to 8"], faults(None))
+
     def test_accept_no_covariance_where_the_scans_say_all_or_places_are_joined(self):
         base = outcome(figures={"hota": 0.6})
         faults = lambda row, altered: verdict.faults("simulated-ways", row, base, altered)

@@ -18,7 +18,7 @@ ALTERED_TIME_S = 0.5   # start and end of a process scatter by so much
 AS_GOOD = 1.1
 LEAST_HOTA = 0.9
 QUICK_ALTERED_ATE = 2.0
-NEES_BAND = {"seeds": (2.7, 3.3), "no-odometry-nees": (2.0, 6.0)}
+NEES_BAND = {"seeds": (2.7, 3.3), "no-odometry-nees": (2.0, 6.0), "quick-ways": (1.5, 8.0)}
 HONEST_NEES = (2.0, 6.0)
 
 
@@ -88,7 +88,7 @@ def faults(set_name, row, base, outcome):
             found.append(f"HOTA under {LEAST_HOTA * hota_of_base:.3f}")
     if set_name in ("simulated-ways", "look-alike") and outcome.joined:
         found.append(f"{outcome.joined} pairs of places falsely joined")
-    if set_name == "no-odometry-nees":
+    if set_name in ("no-odometry-nees", "quick-ways"):
         nees = outcome.figures.get("nees")
         low, high = NEES_BAND[set_name]
         if not (nees is not None and low <= nees <= high):
