@@ -212,8 +212,6 @@ void place_odometry(const OdometryPoint& point, const AssumedBeams& beams,
   constexpr double kSigmas = 4.0;
   constexpr double kMostSigma_rad = 0.02;  // more, and pairs were matched wrongly
   constexpr double kMostSigma_m = 0.3;
-  // The motion between two poses whose turns are mirrored is not that which is read step by step.
-  if (correction.integrates_turns_anew) return;
   if (point.sigma.heading_rad > kMostSigma_rad) return;
   const Pose2& found = point.odometry_from_laser;
   const double turned_rad = wrap_angle(found.heading_rad - beams.laser_heading_rad);
@@ -261,8 +259,12 @@ LogEvidence weigh_in_unit(std::span<const ScanPair> pairs, const AssumedBeams& b
   for (const MatchedPair& pair : matched)
     evidence.motions.push_back({pair.first_scan, pair.second_scan, pair.by_scans.heading_rad,
                                 pair.by_scans.translation_m().norm()});
-  if (auto point = odometry_point(looked_at, with_field(beams, correction.field_factor),
-                                  correction.range_unit_m, matched)) {
+  // Mirrored turns are integrated anew from step to step; two poses far apart hold another motion.
+  auto point = correction.integrates_turns_anew
+                   ? std::nullopt
+                   : odometry_point(looked_at, with_field(beams, correction.field_factor),
+                                    correction.range_unit_m, matched);
+  if (point) {
     correct_sign_of_way(beams, *point, correction);
     place_odometry(*point, beams, correction);
   }

@@ -25,7 +25,7 @@ class PublishedCovariance {
     sensing::VarianceFactors factors;
     sensing::MapChange map_change;
     double by_scans_alone = 0.0;  ///< Share of the time over which poses are compared that had no
-                                  ///< wheels.
+                                  ///< wheels, or none that are believed.
   };
 
   explicit PublishedCovariance(const LocalizerConfig& config) : config_(config) {}

@@ -104,7 +104,8 @@ def stopped_tracking(options, seconds):
         ended_s = observer.last()["time_s"]
         explanation = observer.status("localization")["explanation"]
         services.go_on("tracking")
-        returned_s = time_of_tracks(observer, since_s=ended_s) - ended_s
+        chaos.wait_until(lambda: observer.latencies_ms("vehicle", from_s=ended_s), "tracks of the process that goes on")
+        returned_s = observer.last()["time_s"] - ended_s
         time.sleep(max(0.0, NORMAL_WITHIN_S - returned_s) + 2.0)
         localized = chaos.summary(observer.latencies_ms("vehicle", "localized", began_s, ended_s))
         expected = RATE_HZ * (ended_s - began_s)
@@ -116,14 +117,6 @@ def stopped_tracking(options, seconds):
         after["p99"] <= max(NORMAL_MS, 2 * before["p99"])
     return chaos.row(f"tracking stopped (SIGSTOP) for {seconds} s", "localization goes on and is degraded; normal 2 s after", figure, passed,
                      sound=explanation and after["count"] > 0, localized=localized, after=after, dropped=dropped)
-
-
-def time_of_tracks(observer, since_s):
-    """Of the first line with tracks since a time (system clock). On the bus, a process that stood still is found anew."""
-    def first():
-        return next((line["time_s"] for line in list(observer.lines)
-                     if line["time_s"] > since_s and line["vehicles"].get("vehicle", {}).get("latencies_ms", {}).get("tracked")), None)
-    return chaos.wait_until(first, "tracks of the process that goes on")
 
 
 def cases(options):
