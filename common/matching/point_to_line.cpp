@@ -64,14 +64,20 @@ void PointToLineMatcher::share_errors_of_bodies(const PointToLineConfig& config)
                kGapOfBodies_m + kGapOfBodies_perM * next.in_base_m.norm() &&
            (next.in_base_m - first.in_base_m).norm() < config.body_length_m;
   };
+  const auto direction_of = [](const Pair& pair) -> geometry::Matrix2 {
+    if (!pair.has_direction) return 0.5 * geometry::Matrix2::Identity();
+    return pair.normal * pair.normal.transpose();
+  };
   double each_for_itself = 0.0;
   double together = 0.0;
   for (std::size_t first = 0, end = 0; first < pairs_.size(); first = end) {
     for (end = first + 1;
          end < pairs_.size() && is_of_body(pairs_[first], pairs_[end - 1], pairs_[end]); ++end) {}
-    const auto points = static_cast<double>(end - first);
+    geometry::Matrix2 directions = geometry::Matrix2::Zero();
+    for (std::size_t i = first; i < end; ++i) directions += direction_of(pairs_[i]);
     for (std::size_t i = first; i < end; ++i) {
-      const double shared = 1.0 / (pairs_[i].variance_m2 + points * shared_m2);
+      const double alike = direction_of(pairs_[i]).cwiseProduct(directions).sum();
+      const double shared = 1.0 / (pairs_[i].variance_m2 + alike * shared_m2);
       each_for_itself += 1.0 / pairs_[i].variance_m2;
       together += shared;
       pairs_[i].information_per_m2 = shared * pairs_[i].share;

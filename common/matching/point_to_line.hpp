@@ -62,10 +62,13 @@ double fit_of(const PointToLineResult& registered, double robust_scale_m);
 /// Registers points to surfels by Gauss-Newton on point-to-line distances with a Gaussian prior. It
 /// replaces the closed-form ICP of Wang 2004, section 3.2.1. For a surfel without direction the
 /// distance to its mean counts. No state but memory is kept between matches. With body_sigma_m the
-/// points of each body share an error b ~ N(0, body_sigma_m^2), since the body may be moving. A
-/// body is a run of points without a gap, in the order of the beams. Each of its n points of
-/// variance v has the weight 1 / (v + n body_sigma_m^2). All weights are then scaled so that the
-/// scan's total is unchanged: a near body with many points loses weight to all others.
+/// points of each body share a displacement b ~ N(0, body_sigma_m^2 I), since the body may be
+/// moving. A body is a run of points without a gap, in the order of the beams. A point i of
+/// variance v has the weight 1 / (v + m body_sigma_m^2), where m = sum over the body's points j of
+/// (n_i . n_j)^2: as many of them tell of its normal's direction. That is exact for normals that
+/// are parallel or perpendicular. All weights are then scaled so that the scan's total is
+/// unchanged: a near body with many points loses weight to all others, the corner of a long wall
+/// does not.
 class PointToLineMatcher {
  public:
   /// help (may be null) must outlive this; results do not depend on it.

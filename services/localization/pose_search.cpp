@@ -42,9 +42,17 @@ matching::SearchWindow search_window(const UncertainPose2& prior, const Localize
           std::min(reach(2), std::numbers::pi)};
 }
 
+double PoseSearch::finest_cell_m() const {
+  return std::max(config_.search.correlative.resolution_m,
+                  kSurfelsPerCell * config_.map.surfel_size_m);
+}
+
+bool PoseSearch::is_coarse_in(const matching::SearchWindow& window) const {
+  return cell_m_for(window) > finest_cell_m();
+}
+
 double PoseSearch::cell_m_for(const matching::SearchWindow& window) const {
-  const double finest_m = std::max(config_.search.correlative.resolution_m,
-                                   kSurfelsPerCell * config_.map.surfel_size_m);
+  const double finest_m = finest_cell_m();
   const double volume_m3 = 8.0 * std::max(window.half_x_m, finest_m) *
                            std::max(window.half_y_m, finest_m) *
                            std::max(window.half_heading_rad * config_.search.reach_m, finest_m);

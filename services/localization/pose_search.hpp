@@ -26,6 +26,9 @@ class PoseSearch {
   /// max_peaks: how many poses are told apart at most.
   PoseSearch(const LocalizerConfig& config, std::size_t max_peaks);
 
+  /// True for windows so large that the work of their search is bounded by larger cells.
+  bool is_coarse_in(const matching::SearchWindow& window) const;
+
   /// Poses in odom, best first, within search_sigmas of the prior; empty where nothing scores. The
   /// surfels in reach are taken anew.
   std::vector<geometry::Pose2> poses_around(const geometry::UncertainPose2& prior,
@@ -33,6 +36,7 @@ class PoseSearch {
                                             const grids::SurfelMap& surfels);
 
  private:
+  double finest_cell_m() const;
   double cell_m_for(const matching::SearchWindow& window) const;
   std::vector<Eigen::Vector2f> thinned(const std::vector<matching::MatchPoint>& points) const;
   std::vector<matching::TargetPoint> targets_about(const geometry::Vector2& centre_m,

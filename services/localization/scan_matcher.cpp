@@ -31,6 +31,7 @@ ScanMatcher::ScanMatcher(const LocalizerConfig& config, work::SideWork* help)
       without_wheels_(config.match),
       by_scans_alone_(config.match),
       search_(config.search.correlative),
+      search_far_(config, 1),
       matcher_(help) {
   without_wheels_.unproven_share = 1.0;
   without_wheels_.information_share = 1.0;
@@ -72,6 +73,10 @@ matching::PointToLineResult ScanMatcher::register_from(const Pose2& odom_from_ba
 /// The best pose within the prior's reach; the prior's own where nothing scores.
 Pose2 ScanMatcher::found_around(const UncertainPose2& prior, const ScanToMatch& scan) {
   const matching::SearchWindow window = search_window(prior, config_);
+  if (search_far_.is_coarse_in(window)) {
+    const std::vector<Pose2> poses = search_far_.poses_around(prior, scan.points, scan.surfels);
+    return poses.empty() ? prior.pose : poses.front();
+  }
   std::vector<matching::TargetPoint> targets;
   for (const grids::SurfelView& surfel : scan.surfels.all())
     targets.push_back(

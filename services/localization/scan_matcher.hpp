@@ -66,6 +66,7 @@ class ScanMatcher {
   matching::PointToLineConfig by_scans_alone_;  ///< Where there are no wheels at all.
   matching::CorrelativeMatcher search_;  ///< Exact: without odometry the first steps have nothing
                                          ///< else.
+  PoseSearch search_far_;                ///< Bounded: windows in which the other takes a second.
   matching::PointToLineMatcher matcher_;
   AmbiguousMatcher ambiguous_matcher_;
 };

@@ -160,6 +160,28 @@ TEST(PointToLine, IsNotMovedByOneBodyThatHasMostOfTheBeams) {
   EXPECT_GT(by_bodies_m, -0.015);
 }
 
+/// Between walls with a few shallow corners, and a car ahead.
+World street_with_car_at(double x_m) {
+  World street{{{x_m, -1.0}, {x_m, 1.0}}};
+  for (const double side : {-1.0, 1.0}) {
+    for (const double from_m : {0.0, 12.0}) {
+      street.push_back({{from_m, side * 6.0}, {from_m + 6.0, side * 6.0}});
+      street.push_back({{from_m + 6.0, side * 6.0}, {from_m + 6.0, side * 5.0}});
+      street.push_back({{from_m + 6.0, side * 5.0}, {from_m + 12.0, side * 5.0}});
+    }
+  }
+  return street;
+}
+
+TEST(PointToLine, CountsACornerOfALongWallLikeABodyThatIsSeenFromBehind) {
+  const auto surfels = surfels_of(street_with_car_at(4.0));
+  auto points = exact_scan_of(street_with_car_at(4.04), {}, 720);
+  std::erase_if(points, [](const MatchPoint& point) { return point.in_base_m.x() < 0.5; });
+  PointToLineConfig config;
+  config.body_sigma_m = 0.15;
+  EXPECT_GT(match_from(points, surfels, {}, config).map_from_base.pose.x_m, -0.02);
+}
+
 TEST(PointToLine, BelievesAScanAsMuchWithBodiesAsWithout) {
   const auto surfels = surfels_of(with_car_at(4.0));
   const auto points = exact_scan_of(with_car_at(4.0), {}, 720);
