@@ -100,6 +100,7 @@ class ScanIntegration {
   std::uint64_t restore_points(const flow::ScanLabels& labels, LocalMap& map);
 
   LocalizerConfig config_;
+  std::vector<bool> may_be_drop_out_;  ///< Memory for the beams of one scan.
   memory::RecyclingQueue<PendingScan> pending_;
   std::vector<PendingScan> doubted_;
   memory::RecyclingQueue<PendingScan> integrated_{kScansKeptForRestoring};  ///< The last ones, for
