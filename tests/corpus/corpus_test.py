@@ -88,6 +88,24 @@ class Trajectories(unittest.TestCase):
         self.assertEqual(0, trajectories.falsely_joined(seen_elsewhere(around), around))
 
 
+class Joins(unittest.TestCase):
+    """A trajectory that lies upon itself by drift alone is none."""
+
+    def judged(self, report):
+        true = [(0.5 * x, 0.0, 0.0) for x in range(200)]
+        estimated = [(0.5 * (x % 100), 0.0, 0.0) for x in range(200)]
+        found = trial.Outcome(scans=len(true), joins_places=trial.joins_places(report))
+        trial.judge_trajectory(found, estimated, true)
+        return found.joined
+
+    def test_are_closures_that_last_and_vehicles_that_are_found_again(self):
+        self.assertGreater(self.judged({"closures": [{"state": "withdrawn"}, {"state": "accepted"}]}), 20)
+        self.assertGreater(self.judged({"counters": {"localization": {"found_again": 1}}}), 20)
+
+    def test_are_not_drift(self):
+        self.assertEqual(0, self.judged({"closures": [{"state": "withdrawn"}], "counters": {"localization": {"found_again": 0}}}))
+
+
 class Pictures(unittest.TestCase):
     def test_hold_both_trajectories_and_where_it_is_off(self):
         estimated = circle()

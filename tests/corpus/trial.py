@@ -41,6 +41,7 @@ class Outcome:
     first_off: tuple = None       # scan, metres, radians
     off_share: float = None       # of the scans, off by more than a metre after alignment
     joined: int = None            # pairs of places falsely put together
+    joins_places: bool = True     # by closures, or by finding itself again in the map; else what lies upon another is drift
     look_alike: int = None        # pairs of places that look alike and are not the same
     figures: dict = dataclasses.field(default_factory=dict)  # of slammot eval
     words: str = ""
@@ -135,7 +136,7 @@ def judge_trajectory(outcome, estimated, true):
     outcome.drift_m = trajectories.drift(estimated, true, DRIFT_OVER_M)
     outcome.first_off = trajectories.first_off(estimated, true)
     outcome.off_share = trajectories.off_share(estimated, true)
-    outcome.joined = trajectories.falsely_joined(estimated, true)
+    outcome.joined = trajectories.falsely_joined(estimated, true) if outcome.joins_places else 0
 
 
 def least(*values):
@@ -152,6 +153,13 @@ def read_report(outcome, path):
     outcome.scan_ms = least(outcome.scan_ms, scan_ms)
     outcome.closing_ms = least(outcome.closing_ms, stages.get("loop_closing", {}).get("max_ms"))
     outcome.localized = report.get("counts", {}).get("localized_scans")
+    outcome.joins_places = joins_places(report)
+
+
+def joins_places(report):
+    """Whether anything says that two places are one: a closure that lasts, or a lost vehicle that found itself again in the map."""
+    found_again = report.get("counters", {}).get("localization", {}).get("found_again", 0)
+    return found_again > 0 or any(closure.get("state") == "accepted" for closure in report.get("closures", []))
 
 
 def restamped(path, target, new_of_old):
