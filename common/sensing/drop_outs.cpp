@@ -11,6 +11,8 @@ constexpr double kOneSurfacePerM = 0.03;
 constexpr std::size_t kFewestOnSurface = 20;  // beams between two on one surface: fewer tell no
                                               // share
 constexpr double kByChance = 0.01;
+constexpr double kHarmless = 0.1;  // share of drop-outs: nine of ten beams see the wall, and what
+                                   // answers in part, such as a dark car, is no drop-out
 constexpr std::size_t kLongestRun = 10;
 
 double drop_out_share(const LaserScan& scan) {
@@ -36,6 +38,7 @@ double drop_out_share(const LaserScan& scan) {
 std::size_t shortest_free_run(const LaserScan& scan) {
   const double share = drop_out_share(scan);
   std::size_t length = 1;
+  if (share < kHarmless) return length;
   for (double chance = share; chance > kByChance && length < kLongestRun; chance *= share) ++length;
   return length;
 }

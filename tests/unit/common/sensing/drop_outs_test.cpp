@@ -33,6 +33,10 @@ TEST(DropOuts, AreNotSeenInAScanThatHasNone) {
   EXPECT_EQ(std::ranges::count(drop_outs_of(scan), true), 0);
 }
 
+TEST(DropOuts, AreLeftFreeWhereThereAreFew) {
+  EXPECT_EQ(shortest_free_run(half_open_scan(0.03)), 1U);
+}
+
 TEST(DropOuts, AreToldFromTheOpen) {
   const LaserScan scan = half_open_scan(0.3);
   EXPECT_GE(shortest_free_run(scan), 3U);
