@@ -21,6 +21,8 @@ matching::PointToLineConfig spaced(matching::PointToLineConfig config, double st
   return config;
 }
 
+constexpr matching::SearchWindow kAboutCoarse{0.6, 0.6, 0.1};  // what the cells of a bounded search
+                                                               // leave open
 constexpr double kCoarsePriorSigmas = 2.0;  // without wheels: so far off is a prediction while the
                                             // vehicle begins to turn
 
@@ -70,24 +72,29 @@ matching::PointToLineResult ScanMatcher::register_from(const Pose2& odom_from_ba
   return matcher_.match(scan.points, scan.surfels, prior, odom_from_base, where_it_is);
 }
 
-/// The best pose within the prior's reach; the prior's own where nothing scores.
-Pose2 ScanMatcher::found_around(const UncertainPose2& prior, const ScanToMatch& scan) {
-  const matching::SearchWindow window = search_window(prior, config_);
-  if (search_far_.is_coarse_in(window)) {
-    const std::vector<Pose2> poses = search_far_.poses_around(prior, scan.points, scan.surfels);
-    return poses.empty() ? prior.pose : poses.front();
-  }
+/// The best pose in the window; the middle where nothing scores. Exact.
+Pose2 ScanMatcher::found_in(const matching::SearchWindow& window, const Pose2& middle,
+                            const ScanToMatch& scan) {
   std::vector<matching::TargetPoint> targets;
   for (const grids::SurfelView& surfel : scan.surfels.all())
     targets.push_back(
         {static_cast<float>(surfel.mean_m.x()), static_cast<float>(surfel.mean_m.y()), 1.0F});
-  search_.set_target(targets, {prior.pose.translation_m(), config_.search.reach_m,
+  search_.set_target(targets, {middle.translation_m(), config_.search.reach_m,
                                config_.search.reach_m, std::max(window.half_x_m, window.half_y_m)});
   std::vector<Eigen::Vector2f> sources;
   for (const matching::MatchPoint& point : scan.points)
     sources.push_back(point.in_base_m.cast<float>());
-  const std::vector<matching::Peak> peaks = search_.search(sources, prior.pose, window);
-  return peaks.empty() ? prior.pose : peaks.front().target_from_source.pose;
+  const std::vector<matching::Peak> peaks = search_.search(sources, middle, window);
+  return peaks.empty() ? middle : peaks.front().target_from_source.pose;
+}
+
+/// The best pose within the prior's reach; the prior's own where nothing scores. Within a wide one
+/// about where the bounded search finds it.
+Pose2 ScanMatcher::found_around(const UncertainPose2& prior, const ScanToMatch& scan) {
+  const matching::SearchWindow window = search_window(prior, config_);
+  if (!search_far_.is_coarse_in(window)) return found_in(window, prior.pose, scan);
+  const std::vector<Pose2> poses = search_far_.poses_around(prior, scan.points, scan.surfels);
+  return poses.empty() ? prior.pose : found_in(kAboutCoarse, poses.front(), scan);
 }
 
 /// What a search has found is not as far off as the prediction was.

@@ -57,6 +57,8 @@ class ScanMatcher {
  private:
   matching::PointToLineConfig config_for(const Step& step) const;
   matching::PointToLineConfig beside_wheels(const Step& step) const;
+  geometry::Pose2 found_in(const matching::SearchWindow& window, const geometry::Pose2& middle,
+                           const ScanToMatch& scan);
   geometry::Pose2 found_around(const geometry::UncertainPose2& prior, const ScanToMatch& scan);
   matching::PointToLineResult match_from_search(const ScanToMatch& scan);
 

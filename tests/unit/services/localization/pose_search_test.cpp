@@ -53,5 +53,12 @@ TEST(PoseSearch, LooksNoFartherThanThePriorAllows) {
               0.1 * room.config().search.sigmas * std::sqrt(2.0) + 0.3);
 }
 
+TEST(PoseSearch, TakesLargerCellsOnlyInLargeWindows) {
+  const LocalizerConfig config;
+  const PoseSearch search(config, 1);
+  EXPECT_FALSE(search.is_coarse_in({1.0, 1.0, 0.3}));
+  EXPECT_TRUE(search.is_coarse_in({30.0, 30.0, 3.1}));
+}
+
 }  // namespace
 }  // namespace slammot::localization

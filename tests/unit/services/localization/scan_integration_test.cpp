@@ -1,5 +1,7 @@
 #include "services/localization/scan_integration.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace slammot::localization {
@@ -204,6 +206,55 @@ TEST_F(ScanIntegrationTest, FreesNothingByAnEchoThatIsTooNear) {
   integration_.forget_last();
   integrate(labels(1));
   EXPECT_EQ(map_.evidence().so_steps(map_.evidence().window().cell_at(2.0, 0.0)), 0);
+}
+
+/// Before a wall 5 m ahead, of which the beams that is_lost tells have no echo.
+class WallWithDropOuts : public ScanIntegrationTest {
+ protected:
+  static constexpr int kBeams = 60;
+  static Vector2 direction(int beam) {
+    const double angle_rad = 0.01 * (beam - kBeams / 2);
+    return {std::cos(angle_rad), std::sin(angle_rad)};
+  }
+
+  template <typename IsLost>
+  void map_wall(IsLost is_lost) {
+    sensing::LaserScan scan;
+    scan.scanner.scanner_id = "front";
+    scan.scanner.max_range_m = 30.0;
+    scan.scanner.beam_step_rad = 0.01;
+    flow::LocalizedScan localized;
+    std::vector<Vector2> points_m;
+    std::vector<Vector2> beams;
+    for (int i = 0; i < kBeams; ++i) {
+      const auto range_m = static_cast<float>(5.0 / direction(i).x());
+      beams.push_back(direction(i));
+      points_m.push_back(range_m * beams.back());
+      scan.range_m.push_back(is_lost(i) ? 30.0F : range_m);
+      localized.beams.emplace_back().end_cell =
+          is_lost(i) ? flow::EndCell::kNoEcho : flow::EndCell::kUnseen;
+    }
+    integration_.remember({scan, localized, points_m, beams, {}}, MapAdmission::kMapped, map_);
+    integrate({0, 0, "front", std::vector<PointLabel>(kBeams, PointLabel::kStationary), {}});
+  }
+
+  bool is_free_behind_wall(int beam) const {
+    const Vector2 at_m = 8.0 * direction(beam);
+    return map_.evidence().so_steps(map_.evidence().window().cell_at(at_m.x(), at_m.y())) < 0;
+  }
+};
+
+TEST_F(WallWithDropOuts, IsNotSeenThroughByThem) {
+  const auto every_third = [](int beam) { return beam % 3 == 1; };
+  map_wall(every_third);
+  for (int i = 0; i < kBeams; ++i) EXPECT_FALSE(is_free_behind_wall(i)) << "beam " << i;
+}
+
+TEST_F(WallWithDropOuts, IsSeenThroughWhereItHasAGap) {
+  const auto at_gap = [](int beam) { return beam >= 20 && beam < 40; };
+  const auto at_gap_or_every_third = [&](int beam) { return at_gap(beam) || beam % 3 == 1; };
+  map_wall(at_gap_or_every_third);
+  EXPECT_TRUE(is_free_behind_wall(30));
 }
 
 }  // namespace

@@ -54,6 +54,14 @@ TEST_F(ScanMatcherTest, SearchesWhereThePredictionIsVague) {
   EXPECT_THAT(match.odom_from_base.pose, PoseNear(truth, 0.05));
 }
 
+TEST_F(ScanMatcherTest, SearchesTheWholeMapWhereNothingIsKnown) {
+  const Pose2 truth{-2.0, 1.0, 2.5};
+  const ScanMatch match =
+      match_at(truth, step_to({4.0, -1.0, -0.5}, 10.0, 3.0, StepSource::kVelocityAlone));
+  EXPECT_TRUE(match.was_searched);
+  EXPECT_THAT(match.odom_from_base.pose, PoseNear(truth, 0.05));
+}
+
 TEST_F(ScanMatcherTest, SaysThatAScanOfAnotherPlaceDoesNotMatch) {
   const MappedWorld elsewhere(slammot::testing::box({0.0, 0.0, 0.7}, 30.0, 26.0));
   const ScanPoints points = elsewhere.points_at({0.0, 0.0, 0.0});
