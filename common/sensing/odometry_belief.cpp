@@ -325,6 +325,10 @@ double log_likelihood_of_acceleration(const Pose2& step, const Pose2& at_velocit
   return std::max(kLeast, -0.5 * (position + heading));
 }
 
+double step_after_gap_s(double usual_step_s, const OdometryBeliefConfig& config) {
+  return usual_step_s * (1.0 + config.usual_step_memory * (kGapSteps - 1.0));
+}
+
 OdometryBelief moved(OdometryBelief belief, StepExplanation explanation, double duration_s,
                      const std::optional<Pose2>& before_from_base, const MotionModelConfig& motion,
                      const OdometryBeliefConfig& config) {

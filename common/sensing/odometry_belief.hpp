@@ -210,6 +210,11 @@ OdometryBelief with_wheels(OdometryBelief belief, const geometry::Pose2& by_whee
 double log_likelihood_of_acceleration(const geometry::Pose2& step,
                                       const geometry::Pose2& at_velocity, double duration_s);
 
+inline constexpr double kGapSteps = 10.0;  ///< Usual steps; a longer one may be a gap.
+
+/// Time between scans after a gap: learned with a bound.
+double step_after_gap_s(double usual_step_s, const OdometryBeliefConfig& config);
+
 /// State after one more step; before_from_base: by matches, if any.
 OdometryBelief moved(OdometryBelief belief, StepExplanation explanation, double duration_s,
                      const std::optional<geometry::Pose2>& before_from_base,

@@ -97,14 +97,17 @@ void OdometryPrediction::learn_wheels(const Step& step, const ScanMatch& match) 
   sensing::OdometryBelief& belief = state_.belief;
   const bool is_matched = match.is_believed && !match.is_lost;
   if (step.wheels.have_begun) belief = sensing::with_first_wheels(belief);
-  belief = sensing::moved(belief, step.explanation, step.duration_s,
-                          is_matched ? std::optional(matched_step(step, match)) : std::nullopt,
-                          config_.motion, config_.belief);
+  const bool gap = is_gap(step);
+  const auto by_matches =
+      is_matched && !gap ? std::optional(matched_step(step, match)) : std::nullopt;
+  belief = sensing::moved(belief, step.explanation, step.duration_s, by_matches, config_.motion,
+                          config_.belief);
+  if (gap) belief.usual_step_s = sensing::step_after_gap_s(step.usual_duration_s, config_.belief);
   if (is_matched)
     belief.usual_share += kUsualShareMemory * (match.matched_share - belief.usual_share);
   if (step.wheels.have_changed) belief = sensing::with_changed_wheels(belief);
   if (step.has_wheels() || step.wheels.are_doubted)
-    belief = sensing::with_wheels(belief, step.wheels.uncorrected, step.duration_s);
+    belief = sensing::with_wheels(belief, step.wheels.uncorrected, gap ? 0.0 : step.duration_s);
   const bool tells_of_wheels = step.explanation != sensing::StepExplanation::kWheels &&
                                step.wheels.wheel_from_base && state_.last->has_wheels &&
                                !step.wheels.are_doubted;
@@ -278,21 +281,20 @@ OdometryPrediction::LastScan OdometryPrediction::last_after(const Step& step,
                                                             const ScanMatch& match) const {
   const bool is_later = step.duration_s > 0.0;
   const bool is_by_velocity = is_later && !step.is_by_wheels();
-  return {
-      .stamp_ns = step.stamp_ns,
-      .has_wheels = step.wheels.wheel_from_base.has_value(),
-      .wheel_from_base = step.wheels.wheel_from_base.value_or(Pose2{}),
-      .knows_velocity = state_.last->knows_velocity ||
-                        (is_later && (step.is_by_wheels() || is_sure_of_velocity(state_.estimate))),
-      .was_sampled = match.was_sampled,
-      .speed_mps = is_by_velocity ? state_.estimate.velocity.x() : step.speed_mps,
-      .yaw_rate_radps = is_by_velocity ? state_.estimate.velocity.y() : step.yaw_rate_radps,
-      .doubted_wheels = step.wheels.are_doubted,
-      .trusted_s = step.wheels.are_doubted ? 0.0 : state_.last->trusted_s + step.duration_s,
-      .stood_s = step.wheels.stood_s,
-      .wheels_have_counted =
-          state_.last->wheels_have_counted ||
-          (step.has_wheels() && !sensing::count_nothing(step.wheels.uncorrected))};
+  const bool tells = step.is_by_wheels() || is_sure_of_velocity(state_.estimate);
+  return {.stamp_ns = step.stamp_ns,
+          .has_wheels = step.wheels.wheel_from_base.has_value(),
+          .wheel_from_base = step.wheels.wheel_from_base.value_or(Pose2{}),
+          .knows_velocity = !is_gap(step) && (state_.last->knows_velocity || (is_later && tells)),
+          .was_sampled = match.was_sampled,
+          .speed_mps = is_by_velocity ? state_.estimate.velocity.x() : step.speed_mps,
+          .yaw_rate_radps = is_by_velocity ? state_.estimate.velocity.y() : step.yaw_rate_radps,
+          .doubted_wheels = step.wheels.are_doubted,
+          .trusted_s = step.wheels.are_doubted ? 0.0 : state_.last->trusted_s + step.duration_s,
+          .stood_s = step.wheels.stood_s,
+          .wheels_have_counted =
+              state_.last->wheels_have_counted ||
+              (step.has_wheels() && !sensing::count_nothing(step.wheels.uncorrected))};
 }
 
 }  // namespace slammot::localization

@@ -225,6 +225,13 @@ class OdometryPrediction {
   std::optional<std::int64_t> last_stamp_ns() const {
     return state_.last ? std::optional(state_.last->stamp_ns) : std::nullopt;
   }
+  /// Whether a step is so much longer than those before that its way tells of no moment in it, as
+  /// after scans in which nothing was in range.
+  bool is_gap(const Step& step) const {
+    return state_.belief.steps.size() >= kStepsToKnowGaps &&
+           step.duration_s > config_.odometry.longest_step_s &&
+           step.duration_s > sensing::kGapSteps * step.usual_duration_s;
+  }
   bool has_rare_scans() const { return state_.belief.usual_step_s >= sensing::kRareScans_s; }
 
   /// By how much later than the scans odometry is stamped, as believed.
@@ -278,6 +285,8 @@ class OdometryPrediction {
   void renew_map(const geometry::Pose2& before_from_base, const ScanMatch& match);
   double unconfirmed_s(const sensing::OdometryComparison& comparison) const;
   LastScan last_after(const Step& step, const ScanMatch& match) const;
+
+  static constexpr std::size_t kStepsToKnowGaps = 10;
 
   LocalizerConfig config_;
   sensing::MotionModelConfig motion_of_one_clock_;  ///< That of the estimate until the stamps'

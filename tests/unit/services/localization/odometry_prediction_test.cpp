@@ -313,6 +313,21 @@ TEST_F(OdometryPredictionTest, ExtrapolatesAGapNoFartherThanTheLongestStep) {
               kSpeed_mps * LocalizerConfig{}.odometry.longest_step_s, 1.0);
 }
 
+/// It stands at a light for most of the time in which nothing is in range.
+TEST_F(OdometryPredictionTest, LearnsNeitherVelocityNorSpacingOfScansFromAGap) {
+  constexpr std::int64_t kGap_ns = 40 * kPeriod_ns;
+  drive(0, 30);
+  const auto later = [&](int scan) { return stamp_ns(scan) + kGap_ns; };
+  for (const int scan : {31, 32}) {
+    prediction_.add({later(scan), wheel_from_odom_ * pose_at(scan)});
+    const Step step = prediction_.predict(later(scan));
+    EXPECT_EQ(step.source, StepSource::kOdometry) << "scan " << scan;
+    EXPECT_FALSE(step.wheels.are_doubted || step.wheels.have_changed) << "scan " << scan;
+    EXPECT_LT(step.usual_duration_s, 2.0 * kPeriod_s) << "scan " << scan;
+    prediction_.observe(step, matched_at(pose_at(scan)));
+  }
+}
+
 TEST_F(OdometryPredictionTest, GoesOnFromAStateAsBefore) {
   drive(0, 5);
   const OdometryPrediction::State state = prediction_.state();
