@@ -15,19 +15,20 @@ constexpr double kHarmless = 0.1;  // share of drop-outs: nine of ten beams see 
                                    // answers in part, such as a dark car, is no drop-out
 constexpr std::size_t kLongestRun = 10;
 
+bool has_echo_at(const LaserScan& scan, std::size_t beam) {
+  return is_echo(scan.range_m[beam], scan.scanner.max_range_m);
+}
+
 double drop_out_share(const LaserScan& scan) {
-  const auto has_echo = [&](std::size_t beam) {
-    return is_echo(scan.range_m[beam], scan.scanner.max_range_m);
-  };
   std::size_t on_surface = 0;
   std::size_t without_echo = 0;
   for (std::size_t i = 1; i + 1 < scan.range_m.size(); ++i) {
-    if (!has_echo(i - 1) || !has_echo(i + 1)) continue;
+    if (!has_echo_at(scan, i - 1) || !has_echo_at(scan, i + 1)) continue;
     const float before_m = scan.range_m[i - 1];
     if (std::abs(before_m - scan.range_m[i + 1]) > kOneSurface_m + kOneSurfacePerM * before_m)
       continue;
     ++on_surface;
-    if (!has_echo(i)) ++without_echo;
+    if (!has_echo_at(scan, i)) ++without_echo;
   }
   if (on_surface < kFewestOnSurface) return 0.0;
   return static_cast<double>(without_echo) / static_cast<double>(on_surface);
@@ -48,11 +49,8 @@ void mark_drop_outs(const LaserScan& scan, std::vector<bool>& may_be_drop_out) {
   may_be_drop_out.assign(beams, false);
   const std::size_t shortest = shortest_free_run(scan);
   if (shortest == 1) return;
-  const auto has_echo = [&](std::size_t beam) {
-    return is_echo(scan.range_m[beam], scan.scanner.max_range_m);
-  };
   for (std::size_t first = 0, end = 0; first < beams; first = end + 1) {
-    for (end = first; end < beams && !has_echo(end);) ++end;
+    for (end = first; end < beams && !has_echo_at(scan, end);) ++end;
     if (end - first >= shortest) continue;
     for (std::size_t i = first; i < end; ++i) may_be_drop_out[i] = true;
   }
