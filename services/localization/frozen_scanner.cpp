@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/sensing/blank_reading.hpp"
-
 namespace slammot::localization {
 namespace {
 
@@ -42,12 +40,6 @@ bool FrozenScanner::repeats(const sensing::LaserScan& scan,
   }
   return wheel_from_base && found->wheel_from_base &&
          has_moved(*found->wheel_from_base, *wheel_from_base);
-}
-
-const sensing::LaserScan& FrozenScanner::without_readings(const sensing::LaserScan& scan) {
-  empty_ = scan;
-  std::ranges::fill(empty_.range_m, sensing::kTellsNothing);
-  return empty_;
 }
 
 }  // namespace slammot::localization

@@ -19,9 +19,6 @@ class FrozenScanner {
   bool repeats(const sensing::LaserScan& scan,
                const std::optional<geometry::Pose2>& wheel_from_base);
 
-  /// The scan without what it repeats: readings that tell nothing, not even of free space.
-  const sensing::LaserScan& without_readings(const sensing::LaserScan& scan);
-
  private:
   struct Readings {
     std::string scanner_id;
@@ -30,7 +27,6 @@ class FrozenScanner {
   };
 
   std::vector<Readings> last_;  ///< One a scanner.
-  sensing::LaserScan empty_;    ///< Working memory.
 };
 
 }  // namespace slammot::localization

@@ -3,6 +3,13 @@
 #include <utility>
 
 namespace slammot::localization {
+namespace {
+
+sensing::LaserScan without_beams(const sensing::LaserScan& scan) {
+  return {scan.stamp_ns, scan.sequence, scan.scanner, {}};
+}
+
+}  // namespace
 
 Localizer::Localizer(const LocalizerConfig& config, work::SideWork* help)
     : config_(config),
@@ -19,7 +26,7 @@ std::optional<flow::LocalizedScan> Localizer::localize(const sensing::LaserScan&
     case ScanIntake::Use::kDropped: return std::nullopt;
     case ScanIntake::Use::kPredicted: return predict_blank(scan, std::move(workspace));
     case ScanIntake::Use::kWithoutReadings:
-      return localize_in_order(intake_.without_readings(scan), std::move(workspace));
+      return localize_in_order(without_beams(scan), std::move(workspace));
     case ScanIntake::Use::kLocalized: break;
   }
   return localize_in_order(intake_.without_floor(scan, prediction(), counters_),
@@ -47,8 +54,8 @@ std::optional<flow::LocalizedScan> Localizer::predict_blank(const sensing::Laser
   if (scan.range_m.empty() || !prediction().last() || !intake_.accept_blank(scan))
     return std::nullopt;
   const Step step = prediction().predict(scan.stamp_ns);
-  const sensing::LaserScan without_beams{scan.stamp_ns, scan.sequence, scan.scanner, {}};
-  return describe_and_remember(without_beams, {step.after, step.speed_mps, step.yaw_rate_radps},
+  return describe_and_remember(without_beams(scan),
+                               {step.after, step.speed_mps, step.yaw_rate_radps},
                                MapAdmission::kWithheld, std::move(workspace));
 }
 

@@ -5,6 +5,8 @@
 namespace slammot::localization {
 namespace {
 
+constexpr int kMostBridged = 10;
+
 /// Rare scans are dead reckoned like any other.
 bool measures_nothing(const sensing::LaserScan& scan, const OdometryPrediction& prediction,
                       const LocalMap& map) {
@@ -32,11 +34,24 @@ ScanIntake::Use ScanIntake::judge(const sensing::LaserScan& scan,
   if (!is_in_order(scan, prediction, counters)) return Use::kDropped;
   if (frozen_.repeats(scan, prediction.wheel_from_base_at(scan.stamp_ns)) && prediction.last()) {
     ++counters.scans.frozen;
-    return prediction.has_rare_scans() ? Use::kWithoutReadings : Use::kPredicted;
+    return without_measurement(scan, prediction);
   }
-  if (!measures_nothing(scan, prediction, map)) return Use::kLocalized;
-  ++counters.scans.blank;
-  return Use::kPredicted;
+  if (measures_nothing(scan, prediction, map)) {
+    ++counters.scans.blank;
+    return without_measurement(scan, prediction);
+  }
+  in_a_row_ = 0;
+  return Use::kLocalized;
+}
+
+/// A few such scans are bridged by the next one's step. Over many the vehicle may drive, turn and
+/// stand, which one step does not tell.
+ScanIntake::Use ScanIntake::without_measurement(const sensing::LaserScan& scan,
+                                                const OdometryPrediction& prediction) {
+  if (in_a_row_ < kMostBridged) ++in_a_row_;
+  const bool is_dead_reckoned = prediction.has_rare_scans() || in_a_row_ == kMostBridged;
+  return is_dead_reckoned && prediction.last() && !scan.range_m.empty() ? Use::kWithoutReadings
+                                                                        : Use::kPredicted;
 }
 
 const sensing::LaserScan& ScanIntake::without_floor(const sensing::LaserScan& scan,

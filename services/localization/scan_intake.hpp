@@ -22,7 +22,8 @@ class ScanIntake {
   enum class Use {
     kDropped,          ///< A duplicate, out of order or far ahead of all before.
     kPredicted,        ///< Nothing was measured: the prediction is its pose.
-    kWithoutReadings,  ///< Nothing was measured, and scans are rare: dead reckoned like any other.
+    kWithoutReadings,  ///< Nothing was measured for many scans, or scans are rare: dead reckoned
+                       ///< like any other.
     kLocalized,
   };
 
@@ -32,12 +33,6 @@ class ScanIntake {
   /// scan.
   Use judge(const sensing::LaserScan& scan, const OdometryPrediction& prediction,
             const LocalMap& map, LocalizerCounters& counters);
-
-  /// The scan with readings that tell nothing, for Use::kWithoutReadings. Valid until the next
-  /// call.
-  const sensing::LaserScan& without_readings(const sensing::LaserScan& scan) {
-    return frozen_.without_readings(scan);
-  }
 
   /// The scan without the floor that its scanner looks down at, for Use::kLocalized. To be asked
   /// once of each; valid until the next call.
@@ -63,7 +58,9 @@ class ScanIntake {
  private:
   bool is_in_order(const sensing::LaserScan& scan, const OdometryPrediction& prediction,
                    LocalizerCounters& counters);
+  Use without_measurement(const sensing::LaserScan& scan, const OdometryPrediction& prediction);
 
+  int in_a_row_ = 0;  ///< Scans without a measurement.
   ScanOrder order_;
   FrozenScanner frozen_;
   FloorEchoes floor_;

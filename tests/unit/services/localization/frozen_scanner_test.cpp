@@ -56,16 +56,5 @@ TEST_F(FrozenScannerTest, IsJudgedByItsOwnReadings) {
   EXPECT_TRUE(frozen_.repeats(rear, Pose2{1.0, 0.0, 0.0}));
 }
 
-TEST_F(FrozenScannerTest, LeavesReadingsThatTellNothing) {
-  const sensing::LaserScan scan = scan_at(Pose2::identity());
-  const sensing::LaserScan& without = frozen_.without_readings(scan);
-  EXPECT_EQ(without.stamp_ns, scan.stamp_ns);
-  ASSERT_EQ(without.range_m.size(), scan.range_m.size());
-  for (const float range_m : without.range_m) {
-    EXPECT_TRUE(sensing::is_echo(range_m, scan.scanner.max_range_m)) << "no free space";
-    EXPECT_LT(range_m, 0.01F);
-  }
-}
-
 }  // namespace
 }  // namespace slammot::localization
