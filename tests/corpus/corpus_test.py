@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import textwrap
+import time
 import unittest
 import xml.etree.ElementTree
 
@@ -331,10 +332,15 @@ class Command(unittest.TestCase):
         self.program.write_text(PROGRAM.format(python=sys.executable, tools=str(HERE.parent / "tools")))
         self.program.chmod(self.program.stat().st_mode | stat.S_IXUSR)
 
-    def run_corpus(self, *options):
+    def start_corpus(self, *options):
         environment = dict(os.environ, SLAMMOT_DATA=str(self.folder))
-        return subprocess.run([sys.executable, HERE / "run", "--corpus", self.folder / "corpus.toml", "--binary", self.program,
-                               "--output", self.folder / "out", *options], capture_output=True, text=True, env=environment)
+        return subprocess.Popen([sys.executable, HERE / "run", "--corpus", self.folder / "corpus.toml", "--binary", self.program, "--output",
+                                 self.folder / "out", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+
+    def run_corpus(self, *options):
+        with self.start_corpus(*options) as command:
+            stdout, stderr = command.communicate()
+        return subprocess.CompletedProcess(command.args, command.returncode, stdout, stderr)
 
     def test_passes_what_is_as_wanted_and_skips_what_is_absent(self):
         done = self.run_corpus("--set", "real")
@@ -371,6 +377,34 @@ class Command(unittest.TestCase):
         done = self.run_corpus("--only", "elsewhere")
         self.assertEqual(77, done.returncode)
         self.assertIn("skipped", done.stdout)
+
+    def test_ends_its_programs_when_it_is_interrupted(self):
+        for by in (signal.SIGINT, signal.SIGTERM):
+            pid_file = self.folder / f"pid_{by.name}"
+            self.program.write_text(f"#!/bin/sh\necho $$ > {pid_file}.new\nmv {pid_file}.new {pid_file}\nexec sleep 60\n")
+            with self.start_corpus("--ways", "third,fifth") as command:
+                wait_until(pid_file.exists)
+                command.send_signal(by)
+                _, said = command.communicate(timeout=20)
+            self.assertEqual(130, command.returncode, said)
+            self.assertEqual("interrupted: no table is written\n", said)
+            self.assertFalse(is_alive(int(pid_file.read_text())))
+
+
+def wait_until(condition, timeout_s=20.0):
+    end = time.monotonic() + timeout_s
+    while not condition():
+        if time.monotonic() > end:
+            raise TimeoutError
+        time.sleep(0.02)
+
+
+def is_alive(pid):
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """A child process with a time limit and what it used.
 
 The child is started by a small process of its own (this file as a program): the largest resident set that the kernel keeps for a child
-begins with that of whoever starts it.
+begins with that of whoever starts it. SIGINT or SIGTERM to that process end the child.
 """
 
 import dataclasses
@@ -26,11 +26,47 @@ class Finished:
     text: str          # of stdout and stderr
 
 
+class Ended(Exception):
+    """No child runs any more."""
+
+
+class _Starters:
+    def __init__(self):
+        self.lock = threading.Lock()
+        self.running = set()
+        self.has_ended = False
+
+    def start(self, command):
+        with self.lock:
+            if self.has_ended:
+                raise Ended
+            starter = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+            self.running.add(starter)
+        return starter
+
+    def end(self):
+        with self.lock:
+            self.has_ended = True
+            for starter in self.running:
+                starter.terminate()
+
+
+_starters = _Starters()
+
+
 def run(command, timeout_s, log_path):
-    starter = [sys.executable, "-I", "-S", __file__, str(timeout_s), str(log_path), *map(str, command)]
-    said = subprocess.run(starter, stdout=subprocess.PIPE, check=True, text=True).stdout
+    starter = _starters.start([sys.executable, "-I", "-S", __file__, str(timeout_s), str(log_path), *map(str, command)])
+    said, _ = starter.communicate()
+    _starters.running.discard(starter)
+    if starter.returncode != 0:
+        raise Ended
     with open(log_path, errors="replace") as log:
         return Finished(**json.loads(said), text=log.read())
+
+
+def end_all():
+    """Ends the children that run; later ones are not started."""
+    _starters.end()
 
 
 def start(timeout_s, log_path, command):
@@ -45,6 +81,15 @@ def start(timeout_s, log_path, command):
             os.killpg(child.pid, by)
         except ProcessLookupError:
             pass
+
+    def interrupted(*_):
+        end_it(signal.SIGTERM)
+        kill = threading.Timer(TO_WRITE_S, end_it, [signal.SIGKILL])
+        kill.daemon = True
+        kill.start()
+
+    for by in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(by, interrupted)
     timers = [threading.Timer(timeout_s, end_it, [signal.SIGTERM]), threading.Timer(timeout_s + TO_WRITE_S, end_it, [signal.SIGKILL])]
     for timer in timers:
         timer.start()
