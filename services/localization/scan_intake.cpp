@@ -5,7 +5,7 @@
 namespace slammot::localization {
 namespace {
 
-constexpr int kMostBridged = 10;
+constexpr int kDeadReckonedFrom = 10;  // scans in a row that measure nothing
 
 /// Rare scans are dead reckoned like any other.
 bool measures_nothing(const sensing::LaserScan& scan, const OdometryPrediction& prediction,
@@ -48,8 +48,8 @@ ScanIntake::Use ScanIntake::judge(const sensing::LaserScan& scan,
 /// stand, which one step does not tell.
 ScanIntake::Use ScanIntake::without_measurement(const sensing::LaserScan& scan,
                                                 const OdometryPrediction& prediction) {
-  if (in_a_row_ < kMostBridged) ++in_a_row_;
-  const bool is_dead_reckoned = prediction.has_rare_scans() || in_a_row_ == kMostBridged;
+  if (in_a_row_ < kDeadReckonedFrom) ++in_a_row_;
+  const bool is_dead_reckoned = prediction.has_rare_scans() || in_a_row_ == kDeadReckonedFrom;
   return is_dead_reckoned && prediction.last() && !scan.range_m.empty() ? Use::kWithoutReadings
                                                                         : Use::kPredicted;
 }

@@ -44,6 +44,12 @@ class _Starters:
             self.running.add(starter)
         return starter
 
+    def wait_for(self, starter):
+        said, _ = starter.communicate()
+        with self.lock:
+            self.running.discard(starter)
+        return said
+
     def end(self):
         with self.lock:
             self.has_ended = True
@@ -56,8 +62,7 @@ _starters = _Starters()
 
 def run(command, timeout_s, log_path):
     starter = _starters.start([sys.executable, "-I", "-S", __file__, str(timeout_s), str(log_path), *map(str, command)])
-    said, _ = starter.communicate()
-    _starters.running.discard(starter)
+    said = _starters.wait_for(starter)
     if starter.returncode != 0:
         raise Ended
     with open(log_path, errors="replace") as log:

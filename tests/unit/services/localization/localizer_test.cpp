@@ -714,6 +714,7 @@ TEST(Localizer, FollowsTheWheelsWhileTheScannerHangs) {
       frozen.range_m = last;
       const auto localized = localizer.localize(frozen);
       ASSERT_TRUE(localized);
+      EXPECT_TRUE(localized->beams.empty()) << "says nothing of objects or free space";
       localizer.integrate(all_stationary(*localized));
       EXPECT_THAT(localized->odom_from_base.pose, PoseNear(drive.odom_from_base(scan), 0.03));
     }
