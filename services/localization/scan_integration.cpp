@@ -44,11 +44,12 @@ grids::Ray ScanIntegration::ray_of(const ScanToMap& to_map, std::size_t beam,
     return {end_m, is_far || is_companion ? grids::Echo::kTooFar : grids::Echo::kStationary};
   }
   // Nearer echoes than the least range, and drop-outs, tell nothing, not even that there is free
-  // space.
+  // space. Nor does any beam of what is so far away that nothing has answered from there.
   const bool tells_nothing =
       may_be_drop_out_[beam] || sensing::is_echo(scan.range_m[beam], scan.scanner.max_range_m);
-  const double free_m =
-      tells_nothing ? 0.0 : std::min(config_.map.no_echo_free_m, scan.scanner.max_range_m);
+  const double free_m = tells_nothing ? 0.0
+                                      : std::min(config_.map.no_echo_free_m,
+                                                 echo_reach_.reach_m(scan.scanner.scanner_id));
   return {origin_in_odom_m + free_m * to_map.beams_in_odom[beam], grids::Echo::kNone};
 }
 
@@ -66,6 +67,7 @@ void ScanIntegration::remember(const ScanToMap& to_map, MapAdmission admission, 
       (localized.odom_from_base.pose * scan.scanner.base_from_laser).translation_m();
   pending.rays.resize(localized.beams.size());
   pending.end_cells.resize(localized.beams.size());
+  echo_reach_.add(scan);
   sensing::mark_drop_outs(scan, may_be_drop_out_);
   const geometry::Matrix2 turn = geometry::rotation(localized.odom_from_base.pose.heading_rad);
   for (std::size_t i = 0; i < localized.beams.size(); ++i) {

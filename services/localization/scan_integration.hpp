@@ -8,6 +8,7 @@
 #include "common/flow/scan_labels.hpp"
 #include "common/flow/segmented_scan.hpp"
 #include "common/memory/recycling_queue.hpp"
+#include "common/sensing/echo_reach.hpp"
 #include "common/sensing/scan.hpp"
 #include "services/localization/local_map.hpp"
 #include "services/localization/localizer_config.hpp"
@@ -100,6 +101,7 @@ class ScanIntegration {
   std::uint64_t restore_points(const flow::ScanLabels& labels, LocalMap& map);
 
   LocalizerConfig config_;
+  sensing::EchoReach echo_reach_;
   std::vector<bool> may_be_drop_out_;  ///< Memory for the beams of one scan.
   memory::RecyclingQueue<PendingScan> pending_;
   std::vector<PendingScan> doubted_;

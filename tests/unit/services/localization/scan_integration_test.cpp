@@ -208,10 +208,12 @@ TEST_F(ScanIntegrationTest, FreesNothingByAnEchoThatIsTooNear) {
   EXPECT_EQ(map_.evidence().so_steps(map_.evidence().window().cell_at(2.0, 0.0)), 0);
 }
 
-/// Before a wall 5 m ahead, of which the beams that is_lost tells have no echo.
+/// Before a wall 5 m ahead, of which the beams that is_lost tells have no echo, and a post some
+/// metres away.
 class WallWithDropOuts : public ScanIntegrationTest {
  protected:
   static constexpr int kBeams = 60;
+  static constexpr int kBeamsOnPost = 3;
   static Vector2 direction(int beam) {
     const double angle_rad = 0.01 * (beam - kBeams / 2);
     return {std::cos(angle_rad), std::sin(angle_rad)};
@@ -227,33 +229,45 @@ class WallWithDropOuts : public ScanIntegrationTest {
     std::vector<Vector2> points_m;
     std::vector<Vector2> beams;
     for (int i = 0; i < kBeams; ++i) {
-      const auto range_m = static_cast<float>(5.0 / direction(i).x());
+      const auto range_m = static_cast<float>(i < kBeamsOnPost ? post_m_ : 5.0 / direction(i).x());
       beams.push_back(direction(i));
       points_m.push_back(range_m * beams.back());
-      scan.range_m.push_back(is_lost(i) ? 30.0F : range_m);
+      const bool has_echo = i < kBeamsOnPost || !is_lost(i);
+      scan.range_m.push_back(has_echo ? range_m : 30.0F);
       localized.beams.emplace_back().end_cell =
-          is_lost(i) ? flow::EndCell::kNoEcho : flow::EndCell::kUnseen;
+          has_echo ? flow::EndCell::kUnseen : flow::EndCell::kNoEcho;
     }
     integration_.remember({scan, localized, points_m, beams, {}}, MapAdmission::kMapped, map_);
     integrate({0, 0, "front", std::vector<PointLabel>(kBeams, PointLabel::kStationary), {}});
   }
 
+  static bool is_at_gap(int beam) { return beam >= 20 && beam < 40; }
+
   bool is_free_behind_wall(int beam) const {
     const Vector2 at_m = 8.0 * direction(beam);
     return map_.evidence().so_steps(map_.evidence().window().cell_at(at_m.x(), at_m.y())) < 0;
   }
+
+  double post_m_ = 12.0;
 };
 
 TEST_F(WallWithDropOuts, IsNotSeenThroughByThem) {
   const auto every_third = [](int beam) { return beam % 3 == 1; };
   map_wall(every_third);
-  for (int i = 0; i < kBeams; ++i) EXPECT_FALSE(is_free_behind_wall(i)) << "beam " << i;
+  for (int i = kBeamsOnPost; i < kBeams; ++i) EXPECT_FALSE(is_free_behind_wall(i)) << "beam " << i;
 }
 
 TEST_F(WallWithDropOuts, IsSeenThroughWhereItHasAGap) {
-  const auto at_gap = [](int beam) { return beam >= 20 && beam < 40; };
-  const auto at_gap_or_every_third = [&](int beam) { return at_gap(beam) || beam % 3 == 1; };
-  map_wall(at_gap_or_every_third);
+  map_wall([](int beam) { return is_at_gap(beam) || beam % 3 == 1; });
+  EXPECT_TRUE(is_free_behind_wall(30));
+}
+
+TEST_F(WallWithDropOuts, IsSeenThroughNoFartherThanAnythingHasAnswered) {
+  post_m_ = 6.0;
+  map_wall(is_at_gap);
+  EXPECT_FALSE(is_free_behind_wall(30)) << "the scanner may see 7 m and no more";
+  post_m_ = 9.0;
+  map_wall(is_at_gap);
   EXPECT_TRUE(is_free_behind_wall(30));
 }
 
