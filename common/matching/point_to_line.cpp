@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "common/geometry/displacement.hpp"
+#include "common/matching/body.hpp"
 #include "common/matching/robust_weight.hpp"
 
 namespace slammot::matching {
@@ -16,11 +17,8 @@ namespace {
 using geometry::Matrix3;
 using geometry::Pose2;
 
-constexpr double kGapOfBodies_m = 0.3;      ///< Gap between neighbouring points that separates two
-                                            ///< bodies; it grows with the range
-constexpr double kGapOfBodies_perM = 0.03;  ///< by this: three beams of half a degree.
-constexpr double kSamePairsWithin = 0.01;   ///< As a share of a surfel's cell: a pose change below
-                                            ///< it keeps the correspondences.
+constexpr double kSamePairsWithin = 0.01;  ///< As a share of a surfel's cell: a pose change below
+                                           ///< it keeps the correspondences.
 
 }  // namespace
 
@@ -60,9 +58,7 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points,
 void PointToLineMatcher::share_errors_of_bodies(const PointToLineConfig& config) {
   const double shared_m2 = config.body_sigma_m * config.body_sigma_m;
   const auto is_of_body = [&](const Pair& first, const Pair& last, const Pair& next) {
-    return (next.in_base_m - last.in_base_m).norm() <
-               kGapOfBodies_m + kGapOfBodies_perM * next.in_base_m.norm() &&
-           (next.in_base_m - first.in_base_m).norm() < config.body_length_m;
+    return continues_body(first.in_base_m, last.in_base_m, next.in_base_m, config.body_length_m);
   };
   const auto direction_of = [](const Pair& pair) -> geometry::Matrix2 {
     if (!pair.has_direction) return 0.5 * geometry::Matrix2::Identity();

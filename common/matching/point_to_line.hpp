@@ -6,15 +6,10 @@
 
 #include "common/geometry/uncertain_pose2.hpp"
 #include "common/grids/surfel_map.hpp"
+#include "common/matching/match_point.hpp"
 #include "common/work/side_work.hpp"
 
 namespace slammot::matching {
-
-/// A point of the scan with its standard deviation across the surface.
-struct MatchPoint {
-  geometry::Vector2 in_base_m;
-  double sigma_m = 0.03;
-};
 
 struct PointToLineConfig {
   int coarse_steps = 4;        ///< Gauss-Newton steps with the wide gate,

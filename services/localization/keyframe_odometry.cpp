@@ -19,7 +19,6 @@ constexpr double kFar_m = 1.0;  // from the keyframe,
 constexpr double kFar_rad = 0.25;
 constexpr double kLong_s = 1.0;            // after which what stands still is forgotten
 constexpr double kReach_m = 50.0;          // half side of what is kept of the keyframe
-constexpr std::size_t kFewestPoints = 50;  // fewer may all be of one moving object
 constexpr double kInformationShare = 0.4;  // neighbouring points share the errors of a surface
 constexpr std::array kStarts{1.0, 0.75, 0.5, 0.0, 1.3};  // of the expected way: registration
                                                          // converges from half a metre only
@@ -128,7 +127,7 @@ KeyframeOdometry::BestPlace KeyframeOdometry::best_place(const UncertainPose2& p
 std::optional<UncertainPose2> KeyframeOdometry::registered(const Pose2& expected,
                                                            const Pose2& by_wheels,
                                                            const ScanPoints& points) {
-  if (points.matched().size() < kFewestPoints) return std::nullopt;
+  if (points.independent() < kFewestPoints) return std::nullopt;
   const double way_m = std::hypot(expected.x_m, expected.y_m);
   const double ahead_m = kExpected_m + kExpectedShare * way_m;
   const double turn_rad = kExpected_rad + kExpectedShare * std::abs(expected.heading_rad);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include <Eigen/Core>
 
 #include "common/geometry/squared.hpp"
@@ -15,10 +17,11 @@ inline constexpr double kExpected_m = 0.1;  // one sigma of what is expected, if
 inline constexpr double kExpected_rad = 0.02;
 inline constexpr double kFloor_m = 0.01;  // one sigma of what two scans tell, at least
 inline constexpr double kFloor_rad = 0.002;
-inline constexpr double kLeastShare = 0.35;  // of the points that match
-inline constexpr double kSame_m = 0.05;      // two registrations that end nearer to each other
-inline constexpr double kRivalShare = 0.9;   // another place that fits as well as this share of the
-                                             // best: nothing is told
+inline constexpr double kLeastShare = 0.35;       // of the points that match
+inline constexpr std::size_t kFewestPoints = 50;  // independent ones: fewer may be of one mover
+inline constexpr double kSame_m = 0.05;           // two registrations that end nearer to each other
+inline constexpr double kRivalShare = 0.9;  // another place that fits as well as this share of the
+                                            // best: nothing is told
 
 using geometry::squared;
 

@@ -62,7 +62,8 @@ KeyframeOdometry::Standing KeyframeOdometry::judge_standing(
   const double moved_m =
       (there.map_from_base.pose.translation_m() - by_wheels.translation_m()).norm();
   if (moved_m < kSame_m) return Standing::kConfirmed;
-  const bool is_refuted = standing_share < kStandsShare * there.matched_share &&
+  const bool is_refuted = points.independent() >= kFewestPoints &&
+                          standing_share < kStandsShare * there.matched_share &&
                           there.matched_share >= kLeastShare &&
                           best.rival_fit < kRivalShare * best.fit;
   if (!is_refuted) return Standing::kUnclear;

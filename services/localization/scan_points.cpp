@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "common/matching/body.hpp"
 #include "common/sensing/deskew.hpp"
 #include "services/localization/label_echo.hpp"
 
@@ -56,8 +57,12 @@ void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& o
   }
 }
 
+std::size_t ScanPoints::independent() const {
+  return matching::independent_points(matched_, config_.trust.longest_mover_m);
+}
+
 double ScanPoints::evidence_share() const {
-  return std::min(1.0, static_cast<double>(matched_.size()) / kWholeScanPoints);
+  return std::min(1.0, static_cast<double>(independent()) / kWholeScanPoints);
 }
 
 bool ScanPoints::leave_out(const std::vector<flow::PointLabel>& labels) {

@@ -40,8 +40,10 @@ class ScanPoints {
   /// Beams that end on what goes along with the vehicle, ascending.
   const std::vector<std::size_t>& companion_beams() const { return companion_beams_; }
   const std::vector<matching::MatchPoint>& matched_before() const { return matched_before_; }
-  /// Evidence of the matched points, as a share of that of a whole scan: each point is a
-  /// measurement of its own, so that 20 echoes of a passing car do not outweigh odometry.
+  /// Of the matched points: matching::independent_points().
+  std::size_t independent() const;
+  /// Their evidence, as a share of that of a whole scan: each point is a measurement of its own, so
+  /// that 20 echoes of a passing car do not outweigh odometry.
   double evidence_share() const;
   /// Where the scanner is in the base.
   const geometry::Vector2& laser_in_base_m() const { return laser_in_base_m_; }

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -363,6 +365,50 @@ TEST(OdometryFaults, AreNotFoundBetweenBareWallsWhereTrafficMovesAlong) {
     EXPECT_EQ(result.counters.odometry.disbelieved, 0U) << speed_mps;
     EXPECT_LT(result.worst_m, 0.1 * speed_mps * 0.04 * kScans) << speed_mps;
   }
+}
+
+/// A vehicle that brakes from 4 m/s to 1 m/s, in the open, and whose scanner sees 8 m far.
+DriveSetup braking_in_the_open() {
+  DriveSetup setup{.world_from_base_at = [](double time_s) {
+    const double braking_s = std::clamp(time_s - 1.0, 0.0, 3.0);
+    return Pose2{4.0 * std::min(time_s, 4.0) - 0.5 * braking_s * braking_s +
+                     1.0 * std::max(0.0, time_s - 4.0),
+                 0.0, 0.0};
+  }};
+  setup.scan_period_s = 1.0 / 37.5;
+  setup.beams = 361;
+  setup.scanner.beam_step_rad = std::numbers::pi / 360.0;
+  setup.scanner.max_range_m = 8.0;
+  return setup;
+}
+
+struct BesideACar {
+  double worst_m = 0.0;
+  std::uint64_t disbelieved = 0;
+};
+
+/// A car passes at this speed and is all that is seen.
+BesideACar passed_by_a_car(double speed_mps) {
+  SimulatedDrive drive(braking_in_the_open());
+  Localizer localizer(small_map_config());
+  BesideACar result;
+  for (std::uint32_t scan = 0; scan < 225; ++scan) {
+    const double passes_s = drive.time_s(scan) - 2.5;
+    drive.setup().world = slammot::testing::box({9.0 + speed_mps * passes_s, 2.6, 0.0}, 4.5, 1.8);
+    const auto now = drive_through(localizer, drive, scan, scan + 1);
+    result.worst_m = std::max(result.worst_m, now.worst_m);
+  }
+  result.disbelieved = localizer.counters().odometry.disbelieved;
+  return result;
+}
+
+TEST(OdometryFaults, AreNotFoundWhereOnePassingCarIsAllThatIsSeen) {
+  for (const double speed_mps : {-4.0, 9.0}) {
+    const BesideACar result = passed_by_a_car(speed_mps);
+    EXPECT_EQ(result.disbelieved, 0U) << speed_mps;
+    EXPECT_LT(result.worst_m, 0.3) << speed_mps;
+  }
+  EXPECT_LT(passed_by_a_car(-8.0).worst_m, 1.5) << "it was 35 m";
 }
 
 TEST(OdometryFaults, OfTurnsAreSeenInABareCorridorThoughTheWayIsNot) {

@@ -1,5 +1,9 @@
 #include "services/localization/scan_points.hpp"
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -70,6 +74,42 @@ TEST(ScanPoints, KeepThoseOfTheScanBefore) {
   ScanPoints points = selected();
   points.begin_scan();
   EXPECT_EQ(points.matched_before().size(), 3U);
+}
+
+/// Each body of so many echoes, across the view at its range, with a gap of five beams after it.
+ScanPoints of_bodies(const std::vector<std::pair<std::size_t, float>>& bodies) {
+  constexpr std::size_t kGap = 5;
+  sensing::LaserScan scan;
+  scan.scanner.beam_step_rad = 0.01;
+  scan.scanner.first_beam_rad = -1.0;
+  scan.scanner.max_range_m = 100.0;
+  for (const auto& [echoes, range_m] : bodies) {
+    scan.range_m.insert(scan.range_m.end(), echoes, range_m);
+    scan.range_m.insert(scan.range_m.end(), kGap, 100.0F);
+  }
+  ScanPoints points{LocalizerConfig{}};
+  points.begin_scan();
+  points.deskew(scan, 0.0, 0.0);
+  points.select(scan, {}, {});
+  return points;
+}
+
+TEST(ScanPoints, OfOneBodyTellNothingOfTheVehicle) {
+  EXPECT_EQ(of_bodies({{60, 3.0F}}).independent(), 0U);
+  EXPECT_EQ(of_bodies({{60, 3.0F}}).evidence_share(), 0.0);
+}
+
+TEST(ScanPoints, OfTheLargestBodyCountNoMoreThanAllOthers) {
+  EXPECT_EQ(of_bodies({{60, 3.0F}, {10, 6.0F}, {10, 8.0F}}).independent(), 40U);
+  EXPECT_DOUBLE_EQ(of_bodies({{60, 3.0F}, {10, 6.0F}, {10, 8.0F}}).evidence_share(), 0.4);
+}
+
+TEST(ScanPoints, AllCountWhereNoBodyHasMost) {
+  EXPECT_EQ(of_bodies({{40, 3.0F}, {30, 6.0F}, {10, 8.0F}}).independent(), 80U);
+}
+
+TEST(ScanPoints, OfALongWallAreOfSeveralBodies) {
+  EXPECT_GT(of_bodies({{150, 12.0F}}).independent(), 100U);
 }
 
 }  // namespace
