@@ -45,7 +45,7 @@ FieldTable<LocalMapConfig> evidence_fields() {
   return {
       {"no_echo_free_m",
        &C::no_echo_free_m,
-       "Length of a beam without echo that is free.",
+       "Length of a beam without echo that is free, where echoes of the drive reach as far.",
        Range{0.0, 200.0},
        {"Movers in open space are detected late.",
         "Dark bodies and glass are erased from the map."}},
