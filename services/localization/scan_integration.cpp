@@ -32,8 +32,8 @@ grids::Echo unexplained_out(EndCell end_cell) {
 }  // namespace
 
 grids::Ray ScanIntegration::ray_of(const ScanToMap& to_map, std::size_t beam,
-                                   const geometry::Matrix2& turn,
-                                   const Vector2& origin_in_odom_m) const {
+                                   const geometry::Matrix2& turn, const Vector2& origin_in_odom_m,
+                                   double no_echo_free_m) const {
   const sensing::LaserScan& scan = to_map.scan;
   if (to_map.localized.beams[beam].end_cell != EndCell::kNoEcho) {
     const Vector2 end_m =
@@ -47,9 +47,7 @@ grids::Ray ScanIntegration::ray_of(const ScanToMap& to_map, std::size_t beam,
   // space. Nor does any beam of what is so far away that nothing has answered from there.
   const bool tells_nothing =
       may_be_drop_out_[beam] || sensing::is_echo(scan.range_m[beam], scan.scanner.max_range_m);
-  const double free_m = tells_nothing ? 0.0
-                                      : std::min(config_.map.no_echo_free_m,
-                                                 echo_reach_.reach_m(scan.scanner.scanner_id));
+  const double free_m = tells_nothing ? 0.0 : no_echo_free_m;
   return {origin_in_odom_m + free_m * to_map.beams_in_odom[beam], grids::Echo::kNone};
 }
 
@@ -69,10 +67,12 @@ void ScanIntegration::remember(const ScanToMap& to_map, MapAdmission admission, 
   pending.end_cells.resize(localized.beams.size());
   echo_reach_.add(scan);
   sensing::mark_drop_outs(scan, may_be_drop_out_);
+  const double no_echo_free_m =
+      std::min(config_.map.no_echo_free_m, echo_reach_.reach_m(scan.scanner.scanner_id));
   const geometry::Matrix2 turn = geometry::rotation(localized.odom_from_base.pose.heading_rad);
   for (std::size_t i = 0; i < localized.beams.size(); ++i) {
     pending.end_cells[i] = localized.beams[i].end_cell;
-    pending.rays[i] = ray_of(to_map, i, turn, pending.origin_in_odom_m);
+    pending.rays[i] = ray_of(to_map, i, turn, pending.origin_in_odom_m, no_echo_free_m);
   }
   if (pending_.size() == 1 && admission != MapAdmission::kWithheld)
     map.prepare(pending.origin_in_odom_m, pending.rays, pending.beam_step_rad);

@@ -92,7 +92,7 @@ class ScanIntegration {
   };
 
   grids::Ray ray_of(const ScanToMap& scan, std::size_t beam, const geometry::Matrix2& turn,
-                    const geometry::Vector2& origin_in_odom_m) const;
+                    const geometry::Vector2& origin_in_odom_m, double no_echo_free_m) const;
   static bool is_of(const PendingScan& scan, const flow::ScanLabels& labels);
   void integrate_first(const std::vector<flow::PointLabel>* labels, PoseTrust trust, LocalMap& map,
                        IntegrationCounts& counts);
