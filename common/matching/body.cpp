@@ -19,10 +19,7 @@ bool continues_body(const geometry::Vector2& first_m, const geometry::Vector2& l
 std::size_t independent_points(std::span<const MatchPoint> points, double longest_m) {
   std::size_t largest = 0;
   for (std::size_t first = 0, end = 0; first < points.size(); first = end) {
-    for (end = first + 1;
-         end < points.size() && continues_body(points[first].in_base_m, points[end - 1].in_base_m,
-                                               points[end].in_base_m, longest_m);
-         ++end) {}
+    end = end_of_body(points, first, longest_m);
     largest = std::max(largest, end - first);
   }
   return std::min(points.size(), 2 * (points.size() - largest));

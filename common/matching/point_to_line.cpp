@@ -57,9 +57,6 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points,
 
 void PointToLineMatcher::share_errors_of_bodies(const PointToLineConfig& config) {
   const double shared_m2 = config.body_sigma_m * config.body_sigma_m;
-  const auto is_of_body = [&](const Pair& first, const Pair& last, const Pair& next) {
-    return continues_body(first.in_base_m, last.in_base_m, next.in_base_m, config.body_length_m);
-  };
   const auto direction_of = [](const Pair& pair) -> geometry::Matrix2 {
     if (!pair.has_direction) return 0.5 * geometry::Matrix2::Identity();
     return pair.normal * pair.normal.transpose();
@@ -67,8 +64,7 @@ void PointToLineMatcher::share_errors_of_bodies(const PointToLineConfig& config)
   double each_for_itself = 0.0;
   double together = 0.0;
   for (std::size_t first = 0, end = 0; first < pairs_.size(); first = end) {
-    for (end = first + 1;
-         end < pairs_.size() && is_of_body(pairs_[first], pairs_[end - 1], pairs_[end]); ++end) {}
+    end = end_of_body(pairs_, first, config.body_length_m);
     geometry::Matrix2 directions = geometry::Matrix2::Zero();
     for (std::size_t i = first; i < end; ++i) directions += direction_of(pairs_[i]);
     for (std::size_t i = first; i < end; ++i) {

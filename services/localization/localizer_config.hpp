@@ -61,8 +61,8 @@ struct SearchConfig {
 /// When a match is believed.
 struct MatchTrustConfig {
   double least_matched_share = 0.3;  ///< With fewer points matched, the match is not believed.
-  double longest_mover_m = 5.0;  ///< A run of neighbouring points up to this may be one body that
-                                 ///< moves and fills the view; 0: none does.
+  bool mover_may_fill_view = true;   ///< Points of the largest body (match.body_length_m) count no
+                                     ///< more than all others together.
   double body_sigma_without_wheels_m = 0.15;  ///< match.body_sigma_m without odometry: whatever has
                                               ///< most of the beams may be driving off.
   AmbiguousMatchConfig ambiguous;

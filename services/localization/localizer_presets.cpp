@@ -32,10 +32,10 @@ void set_robot(LocalizerConfig& config) {
                                       // it
   config.motion.pivot_walk_m = 0.03;  // the wheels are not metres behind the middle
   config.motion.speed_prior_mps = 1.5;
-  config.match.proven_after_m = 0.0;     // a slow robot does not pitch
-  config.trust.longest_mover_m = 0.0;    // what fills its view is a wall
-  config.match.information_share = 0.8;  // errors of scans half a metre apart are nearly
-                                         // independent
+  config.match.proven_after_m = 0.0;         // a slow robot does not pitch
+  config.trust.mover_may_fill_view = false;  // what fills it is a wall
+  config.match.information_share = 0.8;      // errors of scans half a metre apart are nearly
+                                             // independent
 }
 
 void set_car(LocalizerConfig& config) {
@@ -54,7 +54,7 @@ void set_car(LocalizerConfig& config) {
   config.motion.pivot_walk_m = defaults.motion.pivot_walk_m;
   config.motion.speed_prior_mps = defaults.motion.speed_prior_mps;
   config.match.proven_after_m = defaults.match.proven_after_m;
-  config.trust.longest_mover_m = defaults.trust.longest_mover_m;
+  config.trust.mover_may_fill_view = defaults.trust.mover_may_fill_view;
   config.match.information_share = defaults.match.information_share;
 }
 

@@ -58,7 +58,9 @@ void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& o
 }
 
 std::size_t ScanPoints::independent() const {
-  return matching::independent_points(matched_, config_.trust.longest_mover_m);
+  return config_.trust.mover_may_fill_view
+             ? matching::independent_points(matched_, config_.match.body_length_m)
+             : matched_.size();
 }
 
 double ScanPoints::evidence_share() const {

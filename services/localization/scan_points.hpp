@@ -40,7 +40,7 @@ class ScanPoints {
   /// Beams that end on what goes along with the vehicle, ascending.
   const std::vector<std::size_t>& companion_beams() const { return companion_beams_; }
   const std::vector<matching::MatchPoint>& matched_before() const { return matched_before_; }
-  /// Of the matched points: matching::independent_points().
+  /// Of the matched points: matching::independent_points(), or all where no mover fills the view.
   std::size_t independent() const;
   /// Their evidence, as a share of that of a whole scan: each point is a measurement of its own, so
   /// that 20 echoes of a passing car do not outweigh odometry.

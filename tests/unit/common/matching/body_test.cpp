@@ -29,32 +29,30 @@ TEST(Body, IsNoLongerThanTheLongest) {
   EXPECT_FALSE(continues_body(first, {3.0, 2.9}, {3.0, 3.1}, kLongest_m));
 }
 
-/// So many points a decimetre apart, from there on.
-void add_side(const Vector2& from_m, int count, std::vector<MatchPoint>& points) {
-  for (int i = 0; i < count; ++i) points.push_back({from_m + Vector2(0.1 * i, 0.0)});
+struct Side {
+  double from_x_m;
+  int points;  ///< A decimetre apart.
+};
+
+/// Of a scan that sees these sides 3 m to the left.
+std::size_t independent_of(const std::vector<Side>& sides) {
+  std::vector<MatchPoint> points;
+  for (const Side& side : sides)
+    for (int i = 0; i < side.points; ++i) points.push_back({{side.from_x_m + 0.1 * i, 3.0}});
+  return independent_points(points, kLongest_m);
 }
 
 TEST(IndependentPoints, AreNoneOfOneBody) {
-  std::vector<MatchPoint> points;
-  EXPECT_EQ(independent_points(points, kLongest_m), 0U);
-  add_side({0.0, 3.0}, 40, points);
-  EXPECT_EQ(independent_points(points, kLongest_m), 0U);
+  EXPECT_EQ(independent_of({}), 0U);
+  EXPECT_EQ(independent_of({{0.0, 40}}), 0U);
 }
 
 TEST(IndependentPoints, OfTheLargestBodyAreNoMoreThanAllOthers) {
-  std::vector<MatchPoint> points;
-  add_side({-8.0, 3.0}, 5, points);
-  add_side({0.0, 3.0}, 40, points);
-  add_side({7.0, 3.0}, 10, points);
-  EXPECT_EQ(independent_points(points, kLongest_m), 30U);
+  EXPECT_EQ(independent_of({{-8.0, 5}, {0.0, 40}, {7.0, 10}}), 30U);
 }
 
 TEST(IndependentPoints, AreAllWhereNoBodyHasMost) {
-  std::vector<MatchPoint> points;
-  add_side({-8.0, 3.0}, 20, points);
-  add_side({0.0, 3.0}, 30, points);
-  add_side({7.0, 3.0}, 20, points);
-  EXPECT_EQ(independent_points(points, kLongest_m), 70U);
+  EXPECT_EQ(independent_of({{-8.0, 20}, {0.0, 30}, {7.0, 20}}), 70U);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST(LocalizerPresets, OfACarAndTheRoadAreTheDefaults) {
   EXPECT_EQ(config.motion.pivot_walk_m, defaults.motion.pivot_walk_m);
   EXPECT_EQ(config.motion.speed_prior_mps, defaults.motion.speed_prior_mps);
   EXPECT_EQ(config.match.proven_after_m, defaults.match.proven_after_m);
-  EXPECT_EQ(config.trust.longest_mover_m, defaults.trust.longest_mover_m);
+  EXPECT_EQ(config.trust.mover_may_fill_view, defaults.trust.mover_may_fill_view);
   EXPECT_EQ(config.errors.variance_by_scans_alone, defaults.errors.variance_by_scans_alone);
   EXPECT_EQ(config.errors.pose_errors.forward.of_scan, defaults.errors.pose_errors.forward.of_scan);
 }
@@ -39,7 +39,7 @@ TEST(LocalizerPresets, OfARobotTurnAboutItsMiddleAndHaveNoPitchingScanner) {
   EXPECT_LT(config.motion.pivot_walk_m, LocalizerConfig().motion.pivot_walk_m);
   EXPECT_LT(config.motion.speed_prior_mps, LocalizerConfig().motion.speed_prior_mps);
   EXPECT_EQ(config.match.proven_after_m, 0.0);
-  EXPECT_EQ(config.trust.longest_mover_m, 0.0) << "a wall fills its view, and tells how it moves";
+  EXPECT_FALSE(config.trust.mover_may_fill_view) << "a wall does, and tells how it moves";
 }
 
 TEST(LocalizerPresets, OfARobotBelieveASlippingStepLessAndAWallSeenOnce) {
