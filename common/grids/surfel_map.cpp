@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace slammot::grids {
@@ -157,19 +158,34 @@ SurfelMap::Moments SurfelMap::moments_around(Cell cell) const {
   return around;
 }
 
-void SurfelMap::renew_shape(std::size_t place) const {
-  const double size_m = window_.cell_size_m;
-  const Moments around = moments_around(cells_[place]);
+/// Of the echoes in the 3 x 3 cells around.
+SurfelMap::Spread SurfelMap::spread_around(Cell cell) const {
+  const Moments around = moments_around(cell);
   const double x = around[1] / around[0];
   const double y = around[2] / around[0];
-  const double cxx = around[3] / around[0] - x * x;
-  const double cxy = around[4] / around[0] - x * y;
-  const double cyy = around[5] / around[0] - y * y;
-  // Eigenvalues of the symmetric 2 x 2 covariance.
-  const double half_trace = 0.5 * (cxx + cyy);
-  const double root = std::sqrt(0.25 * (cxx - cyy) * (cxx - cyy) + cxy * cxy);
-  const double large = half_trace + root;
-  const double small = std::max(0.0, half_trace - root);
+  return {window_.centre_of(cell) + Eigen::Vector2d(x, y), around[3] / around[0] - x * x,
+          around[4] / around[0] - x * y, around[5] / around[0] - y * y};
+}
+
+std::optional<LoneObject> SurfelMap::lone_object_at(std::size_t place) const {
+  const Cell centre = cells_[place];
+  for (std::int32_t row = -2; row <= 2; ++row) {
+    for (std::int32_t column = -2; column <= 2; ++column) {
+      const bool is_around = std::max(std::abs(row), std::abs(column)) == 2;
+      if (is_around && !is_empty(slot_of({centre.column + column, centre.row + row})))
+        return std::nullopt;
+    }
+  }
+  const Spread spread = spread_around(centre);
+  return LoneObject{spread.mean_m, spread.half_trace() + spread.root()};
+}
+
+void SurfelMap::renew_shape(std::size_t place) const {
+  const double size_m = window_.cell_size_m;
+  const Spread spread = spread_around(cells_[place]);
+  const double root = spread.root();
+  const double large = spread.half_trace() + root;
+  const double small = std::max(0.0, spread.half_trace() - root);
   Shape& shape = shapes_[place];
   shape = {0.0F, 0.0F, static_cast<float>(small)};
   is_stale_[place + 1] = false;
@@ -178,9 +194,9 @@ void SurfelMap::renew_shape(std::size_t place) const {
     return;  // a point or an isotropic cluster: no direction
   // Sine and cosine of half the angle with tangent 2 cxy / (cxx - cyy): direction of the major
   // axis.
-  const double cosine_of_twice = root > 0.0 ? 0.5 * (cxx - cyy) / root : 1.0;
+  const double cosine_of_twice = root > 0.0 ? 0.5 * (spread.cxx - spread.cyy) / root : 1.0;
   shape.normal_x = static_cast<float>(
-      -std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine_of_twice))), cxy));
+      -std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine_of_twice))), spread.cxy));
   shape.normal_y = static_cast<float>(std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine_of_twice))));
 }
 

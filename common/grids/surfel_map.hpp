@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -24,6 +25,12 @@ struct SurfelView {
   double weight = 0.0;       ///< Number of echoes in the mean, up to the limit.
   double own_echoes = 0.0;   ///< Number of echoes since the map was moved to this window.
   double seen_over_m = 0.0;  ///< Distance driven between the first and the last echo.
+};
+
+/// What occupies a cell, where nothing else is near.
+struct LoneObject {
+  Eigen::Vector2d mean_m = Eigen::Vector2d::Zero();
+  double extent_m2 = 0.0;  ///< Variance of its echoes along its greatest extent.
 };
 
 /// First and second moments of a cell's echoes about the cell's centre.
@@ -86,6 +93,8 @@ class SurfelMap {
   std::size_t nearest_place(const Eigen::Vector2d& point_m, int radius) const;
   static constexpr std::size_t kNoPlace = static_cast<std::size_t>(-1);
   Surface surface_at(std::size_t place) const;
+  /// Object in the 3 x 3 cells around a surfel's cell, if the 16 cells around those are empty.
+  std::optional<LoneObject> lone_object_at(std::size_t place) const;
   const Eigen::Vector2d& mean_at(std::size_t place) const { return means_m_[place + 1]; }
 
   /// The surfels in the 3 x 3 cells around a cell, for several points in it.
@@ -154,6 +163,16 @@ class SurfelMap {
     float normal_x = 0.0F, normal_y = 0.0F, spread_m2 = 0.0F;
   };
 
+  /// Mean [m] and covariance [m^2].
+  struct Spread {
+    Eigen::Vector2d mean_m;
+    double cxx = 0.0, cxy = 0.0, cyy = 0.0;
+
+    double half_trace() const { return 0.5 * (cxx + cyy); }
+    /// Half the difference of the eigenvalues.
+    double root() const { return std::sqrt(0.25 * (cxx - cyy) * (cxx - cyy) + cxy * cxy); }
+  };
+
   /// Number of echoes, and their sums of x, y, xx, xy and yy about the cell's centre.
   using Moments = Eigen::Matrix<double, 6, 1>;
 
@@ -180,6 +199,7 @@ class SurfelMap {
   std::int32_t nearest_slot(const Eigen::Vector2d& point_m, int radius) const;
   void mark_stale_around(Cell cell);
   Moments moments_around(Cell cell) const;
+  Spread spread_around(Cell cell) const;
   void renew_shape(std::size_t place) const;
   const Shape& fresh_shape(std::size_t place) const;
   void note_mean(std::size_t place);

@@ -19,6 +19,26 @@ using geometry::Pose2;
 
 constexpr double kSamePairsWithin = 0.01;  ///< As a share of a surfel's cell: a pose change below
                                            ///< it keeps the correspondences.
+constexpr double kWidestInCells = 2.4;     ///< Objects that fit into the 3 x 3 cells around a
+                                           ///< surfel's.
+constexpr double kExtents = 2.0;  ///< An object's echoes are within so many sigmas of its extent.
+constexpr double kSeenFromWithin_m = 5.0;  ///< The way on which a surfel's mean was made.
+constexpr int kFewestObjects = 4;          ///< The side from which one is seen decides nothing.
+
+/// The side of an object that is seen now is not that of which the map has the mean: an error of
+/// its points that they share, up to half its width.
+double variance_of_view_m2(const MatchPoint& point) {
+  const double turned = std::min(1.0, kSeenFromWithin_m / point.in_base_m.norm());
+  return point.object_points * std::pow(0.5 * point.object_width_m * turned, 2);
+}
+
+/// Of the heading where the position is unknown, by information about (x, y, heading) [1/rad^2].
+double heading_information(const Matrix3& information) {
+  const Eigen::Vector2d cross = information.topRightCorner<2, 1>();
+  const geometry::Matrix2 of_position = information.topLeftCorner<2, 2>();
+  if (!(of_position.determinant() > 0.0)) return 0.0;
+  return information(2, 2) - cross.dot(of_position.ldlt().solve(cross));
+}
 
 }  // namespace
 
@@ -39,6 +59,7 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points,
           surfels.nearest_place(turn * points[i].in_base_m + map_from_base.translation_m(), radius);
   });
   pairs_.clear();
+  objects_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const MatchPoint& point = points[i];
     if (places_[i] == grids::SurfelMap::kNoPlace) continue;
@@ -50,9 +71,31 @@ void PointToLineMatcher::pair(const std::vector<MatchPoint>& points,
                       : std::pow(point.sigma_m + 0.5 * surfels.window().cell_size_m, 2);
     const double share = surface.seen_over_m >= config.proven_after_m ? 1.0 : config.unproven_share;
     pairs_.push_back({point.in_base_m, surface.mean_m, surface.normal, share / variance_m2,
-                      variance_m2, share, has_direction, surface.seen_over_m < config.new_below_m});
+                      variance_m2, share, has_direction, surface.seen_over_m < config.new_below_m,
+                      static_cast<std::uint32_t>(i)});
   }
   if (config.body_sigma_m > 0.0) share_errors_of_bodies(config);
+}
+
+void PointToLineMatcher::find_objects(const std::vector<MatchPoint>& points,
+                                      const grids::SurfelMap& surfels) {
+  const double widest_m = kWidestInCells * surfels.window().cell_size_m;
+  int count = 0;
+  for (Pair& pair : pairs_) {
+    const MatchPoint& point = points[pair.point];
+    const bool is_whole = point.object_width_m > 0.0 && point.object_width_m < widest_m;
+    const bool is_proven = pair.share >= 1.0;
+    if (!is_whole || !is_proven) continue;
+    const std::optional<grids::LoneObject> object = surfels.lone_object_at(places_[pair.point]);
+    if (!object) continue;
+    const double variance_m2 =
+        point.sigma_m * point.sigma_m + object->extent_m2 + variance_of_view_m2(point);
+    count += objects_.empty() || (object->mean_m - objects_.back().mean_m).norm() > widest_m;
+    pair.object = static_cast<std::int32_t>(objects_.size());
+    objects_.push_back({object->mean_m, object->extent_m2, 1.0 / variance_m2});
+  }
+  if (count >= kFewestObjects) return;
+  for (Pair& pair : pairs_) pair.object = -1;
 }
 
 void PointToLineMatcher::share_errors_of_bodies(const PointToLineConfig& config) {
@@ -85,16 +128,19 @@ PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(
   NormalEquations equations;
   double xx = 0.0, xy = 0.0, xh = 0.0, yy = 0.0, yh = 0.0, hh = 0.0, x = 0.0, y = 0.0,
          h = 0.0;  // entries of J'WJ and J'Wr
-  const auto robust_scale_m = [&](const geometry::Vector2& direction, double by_heading_m) {
-    if (!expected) return config.robust_scale_m;
+  const auto robust_scale_m = [&](const geometry::Vector2& direction, double by_heading_m,
+                                  double extent_m2) {
+    if (!expected && extent_m2 == 0.0) return config.robust_scale_m;
+    double scale_m2 = config.robust_scale_m * config.robust_scale_m;
     const Eigen::Vector3d by_pose(direction.x(), direction.y(), by_heading_m);
-    return std::sqrt(config.robust_scale_m * config.robust_scale_m +
-                     by_pose.dot(*expected * by_pose));
+    if (expected) scale_m2 += by_pose.dot(*expected * by_pose);
+    return std::sqrt(scale_m2 + kExtents * kExtents * extent_m2);
   };
   const auto add = [&](const geometry::Vector2& direction, double by_heading_m, double residual_m,
-                       double information_per_m2) {
+                       double information_per_m2, double extent_m2 = 0.0) {
     const double weight =
-        robust_weight(residual_m, robust_scale_m(direction, by_heading_m)) * information_per_m2;
+        robust_weight(residual_m, robust_scale_m(direction, by_heading_m, extent_m2)) *
+        information_per_m2;
     const double weighted_x = weight * direction.x();
     const double weighted_y = weight * direction.y();
     const double weighted_h = weight * by_heading_m;
@@ -115,6 +161,17 @@ PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(
       equations.squared_residuals_m2 += residual_m * residual_m;
       add(pair.normal, pair.normal.y() * turned_m.x() - pair.normal.x() * turned_m.y(), residual_m,
           pair.information_per_m2);
+      if (pair.object < 0) continue;
+      const Object& object = objects_[static_cast<std::size_t>(pair.object)];
+      add(pair.along(), pair.normal.dot(turned_m),
+          pair.along().dot(offset_m + pair.mean_m - object.mean_m), object.information_per_m2,
+          object.extent_m2);
+    } else if (pair.object >= 0) {
+      const Object& object = objects_[static_cast<std::size_t>(pair.object)];
+      const geometry::Vector2 from_mean_m = offset_m + pair.mean_m - object.mean_m;
+      equations.squared_residuals_m2 += 0.5 * from_mean_m.squaredNorm();
+      add({1.0, 0.0}, -turned_m.y(), from_mean_m.x(), object.information_per_m2, object.extent_m2);
+      add({0.0, 1.0}, turned_m.x(), from_mean_m.y(), object.information_per_m2, object.extent_m2);
     } else {
       equations.squared_residuals_m2 += 0.5 * offset_m.squaredNorm();
       add({1.0, 0.0}, -turned_m.y(), offset_m.x(), pair.information_per_m2);
@@ -126,6 +183,15 @@ PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(
   equations.H *= config.information_share;
   equations.g *= config.information_share;
   return equations;
+}
+
+/// Whether what surfaces tell of the heading is not enough. Where it is, what objects tell beside
+/// it would do harm: their errors last as long as they are seen.
+bool PointToLineMatcher::leaves_heading_open(const Pose2& map_from_base, double gate_m,
+                                             const PointToLineConfig& config) const {
+  const double open_rad2 = config.open_heading_rad * config.open_heading_rad;
+  return heading_information(linearize(map_from_base, gate_m, std::nullopt, config).H) * open_rad2 <
+         1.0;
 }
 
 PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& points,
@@ -145,11 +211,14 @@ PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& point
         config.coarse_prior_sigmas * config.coarse_prior_sigmas * prior_map_from_base.covariance;
   NormalEquations equations;
   double moved_since_paired_m = std::numeric_limits<double>::infinity();
+  std::optional<bool> is_heading_open;
   for (int step = 0; step < config.coarse_steps + config.fine_steps; ++step) {
     const bool is_coarse = step < config.coarse_steps;
     const double gate_m = is_coarse ? config.coarse_gate_m : config.fine_gate_m;
     if (moved_since_paired_m > kSamePairsWithin * surfels.window().cell_size_m) {
       pair(points, surfels, pose, gate_m, config);
+      if (!is_heading_open) is_heading_open = leaves_heading_open(pose, gate_m, config);
+      if (*is_heading_open) find_objects(points, surfels);
       moved_since_paired_m = 0.0;
     }
     equations = linearize(pose, gate_m, is_coarse ? expected : std::nullopt, config);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct PointToLineConfig {
                               ///< are independent.
   double body_length_m = 5.0;  ///< A run of neighbouring points this long may be one body: at least
                                ///< a car.
+  double open_heading_rad = 0.006;  ///< Objects that stand alone tell of the heading where surfaces
+                                    ///< leave it open by this, one sigma.
   double converged_m = 1e-4;
 };
 
@@ -56,7 +59,12 @@ double fit_of(const PointToLineResult& registered, double robust_scale_m);
 
 /// Registers points to surfels by Gauss-Newton on point-to-line distances with a Gaussian prior. It
 /// replaces the closed-form ICP of Wang 2004, section 3.2.1. For a surfel without direction the
-/// distance to its mean counts. No state but memory is kept between matches. With body_sigma_m the
+/// distance to its mean counts. Where surfaces leave the heading open, and there are several of
+/// them, a point of a whole object that stands alone in the map tells of the direction along its
+/// surface, too: the object's echoes lie about its mean with the variance of its extent, as in the
+/// normal distributions transform (Biber and Strasser 2003), and share an error, since it may be
+/// seen from another side. Of a wall, whose surfels have neighbours, they would pull towards the
+/// middle of each cell. No state but memory is kept between matches. With body_sigma_m the
 /// points of each body share a displacement b ~ N(0, body_sigma_m^2 I), since the body may be
 /// moving. A body is a run of points without a gap, in the order of the beams. A point i of
 /// variance v has the weight 1 / (v + m body_sigma_m^2), where m = sum over the body's points j of
@@ -85,6 +93,16 @@ class PointToLineMatcher {
     double share = 1.0;  ///< Weight of an unproven surfel; the information is share / variance_m2.
     bool has_direction = false;
     bool is_new = false;
+    std::uint32_t point = 0;   ///< Index of the point,
+    std::int32_t object = -1;  ///< and in objects_, if it is of a whole object that stands alone.
+
+    geometry::Vector2 along() const { return {-normal.y(), normal.x()}; }
+  };
+  /// Tells where along the surface a point is.
+  struct Object {
+    geometry::Vector2 mean_m = geometry::Vector2::Zero();
+    double extent_m2 = 0.0;           ///< Variance of its echoes along it.
+    double information_per_m2 = 0.0;  ///< Of the distance of the point from its mean.
   };
   struct NormalEquations {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
@@ -96,7 +114,10 @@ class PointToLineMatcher {
 
   void pair(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels,
             const geometry::Pose2& map_from_base, double gate_m, const PointToLineConfig& config);
+  void find_objects(const std::vector<MatchPoint>& points, const grids::SurfelMap& surfels);
   void share_errors_of_bodies(const PointToLineConfig& config);
+  bool leaves_heading_open(const geometry::Pose2& map_from_base, double gate_m,
+                           const PointToLineConfig& config) const;
   /// expected: covariance of (x [m], y [m], heading [rad]) by which the robust scale grows; none:
   /// the scale is robust_scale_m.
   NormalEquations linearize(const geometry::Pose2& map_from_base, double gate_m,
@@ -106,6 +127,7 @@ class PointToLineMatcher {
   work::SideWork* help_;
   std::vector<std::size_t> places_;  ///< Index of the surfel nearest to each point, if any.
   std::vector<Pair> pairs_;
+  std::vector<Object> objects_;  ///< Empty where surfaces tell the heading.
 };
 
 }  // namespace slammot::matching

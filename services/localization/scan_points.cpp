@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kRangeNoisePerM = 0.001;  ///< Increase of range_noise_m with range.
 constexpr double kWholeScanPoints = 100.0;
+constexpr double kWidestObject_m = 1.2;
+constexpr double kSmallSurfels_m = 0.4;  ///< Of rooms, in which walls tell of all directions, and a
+                                         ///< piece of wall seen by one beam looks alone.
 
 }  // namespace
 
@@ -25,6 +28,8 @@ void ScanPoints::begin_scan(const std::vector<std::size_t>& companion_beams) {
 
 void ScanPoints::deskew(const sensing::LaserScan& scan, double speed_mps, double yaw_rate_radps) {
   sensing::deskew(scan, speed_mps, yaw_rate_radps, points_in_base_m_);
+  const double widest_m = config_.map.surfel_size_m < kSmallSurfels_m ? 0.0 : kWidestObject_m;
+  whole_objects_.find(scan, points_in_base_m_, config_.echoes.min_range_m, widest_m);
 }
 
 bool ScanPoints::is_candidate(const sensing::LaserScan& scan, std::size_t beam) const {
@@ -52,7 +57,8 @@ void ScanPoints::select(const sensing::LaserScan& scan, const geometry::Pose2& o
     if (std::ranges::binary_search(left_out_beams_, beam)) continue;
     matched_.push_back(
         {points_in_base_m_[beam],
-         config_.echoes.range_noise_m + kRangeNoisePerM * static_cast<double>(scan.range_m[beam])});
+         config_.echoes.range_noise_m + kRangeNoisePerM * static_cast<double>(scan.range_m[beam]),
+         whole_objects_.width_m(beam), whole_objects_.points(beam)});
     matched_beams_.push_back(beam);
   }
 }

@@ -9,6 +9,7 @@
 #include "common/matching/point_to_line.hpp"
 #include "common/sensing/scan.hpp"
 #include "services/localization/localizer_config.hpp"
+#include "services/localization/whole_objects.hpp"
 
 namespace slammot::localization {
 
@@ -53,6 +54,7 @@ class ScanPoints {
 
   LocalizerConfig config_;
   std::vector<geometry::Vector2> points_in_base_m_;
+  WholeObjects whole_objects_;
   geometry::Vector2 laser_in_base_m_ = geometry::Vector2::Zero();
   std::vector<matching::MatchPoint> matched_;
   std::vector<std::size_t> matched_beams_;

@@ -175,6 +175,37 @@ TEST(SurfelMap, GivesDotsAndBlobsNoDirection) {
   EXPECT_TRUE(blob.nearest({0.0, 0.0}, 1)->normal.isZero());
 }
 
+/// Echoes every centimetre of a surface 0.2 m wide, as of a trunk, across x.
+void add_trunk(SurfelMap& map, const Vector2d& middle_m) {
+  for (int i = -10; i <= 10; ++i) map.add(middle_m + Vector2d(0.0, 0.01 * i));
+}
+
+TEST(SurfelMap, TellsWhereAnObjectIsThatStandsAlone) {
+  for (const double y_m : {0.125, 0.25}) {  // in the middle of a cell, and across a border
+    SurfelMap map = empty_map();
+    add_trunk(map, {0.125, y_m});
+    const auto object = map.lone_object_at(map.nearest_place({0.125, y_m + 0.09}, 1));
+    ASSERT_TRUE(object);
+    EXPECT_NEAR(object->mean_m.x(), 0.125, 1e-4);
+    EXPECT_NEAR(object->mean_m.y(), y_m, 0.01);
+    EXPECT_NEAR(object->extent_m2, 0.2 * 0.2 / 12.0, 5e-4);
+  }
+}
+
+TEST(SurfelMap, TellsNoObjectNextToAnotherOne) {
+  SurfelMap map = empty_map();
+  add_trunk(map, {0.125, 0.125});
+  add_trunk(map, {0.125, 0.625});
+  EXPECT_FALSE(map.lone_object_at(map.nearest_place({0.125, 0.125}, 1)));
+  add_trunk(map, {0.125, -0.625});
+  EXPECT_TRUE(map.lone_object_at(map.nearest_place({0.125, -0.625}, 1)));
+}
+
+TEST(SurfelMap, TellsNoObjectInAWall) {
+  const SurfelMap map = map_of_wall({0.1, 0.1}, 0.3, 0.01);
+  EXPECT_FALSE(map.lone_object_at(map.nearest_place({0.1, 0.1}, 1)));
+}
+
 TEST(SurfelMap, FollowsASurfaceThatMovesOnceTheLimitIsReached) {
   SurfelMap map = empty_map(20.0, 10.0);
   for (int i = 0; i < 100; ++i) map.add({0.05, 0.1});

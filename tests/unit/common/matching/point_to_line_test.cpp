@@ -346,6 +346,96 @@ TEST(PointToLine, FollowsATurnThatThePriorAllowsForThoughFarWallsAreFarOff) {
   EXPECT_GT(heading_error_rad(0.0), 0.005);
 }
 
+/// Trunks of 0.3 m around the vehicle, as faces towards the places that they are seen from: the
+/// points tell how far they are, and little of their directions.
+World park() {
+  World trunks;
+  for (int i = 0; i < 9; ++i) {
+    const Pose2 towards{0.0, 0.0, 0.7 * i};
+    const double away_m = 6.0 + 1.1 * i;
+    trunks.push_back({towards * Vector2(away_m, -0.15), towards * Vector2(away_m, 0.15)});
+  }
+  return trunks;
+}
+
+TEST(PointToLine, FindsTheHeadingByTrunksThatWereSeenWhole) {
+  const auto surfels = surfels_of(park(), {0.0, 0.0}, 0.5);
+  auto points = exact_scan_of(park(), {}, 720);
+  const Pose2 turned{0.0, 0.0, 0.012};
+  const auto by_distances = match_from(points, surfels, turned);
+  for (MatchPoint& point : points) point.object_width_m = 0.3, point.object_points = 3.0;
+  const auto whole = match_from(points, surfels, turned);
+  EXPECT_NEAR(whole.map_from_base.pose.heading_rad, 0.0, 0.001);
+  EXPECT_GT(whole.scan_information(2, 2), 3.0 * by_distances.scan_information(2, 2));
+}
+
+TEST(PointToLine, AsksNoObjectsWhereWallsTellTheHeading) {
+  const World in_a_hall = joined(park(), slammot::testing::box({}, 50.0, 40.0));
+  const auto surfels = surfels_of(in_a_hall, {0.0, 0.0}, 0.5);
+  auto points = exact_scan_of(in_a_hall, {}, 720);
+  const Pose2 turned{0.0, 0.0, 0.012};
+  const auto by_walls = match_from(points, surfels, turned);
+  for (MatchPoint& point : points)
+    if (point.in_base_m.norm() < 16.0) point.object_width_m = 0.3, point.object_points = 3.0;
+  EXPECT_EQ(match_from(points, surfels, turned).map_from_base.pose, by_walls.map_from_base.pose);
+  PointToLineConfig never_sure;
+  never_sure.open_heading_rad = 1e-6;
+  EXPECT_NE(match_from(points, surfels, turned, never_sure).map_from_base.pose,
+            by_walls.map_from_base.pose);
+}
+
+TEST(PointToLine, AsksNoObjectsThatAreNotProven) {
+  grids::SurfelMap surfels(grids::window_around({0.0, 0.0}, 60.0, 0.5), 1000.0);
+  for (const slammot::testing::Wall& trunk : park())
+    for (int i = 0; i <= 15; ++i)
+      surfels.add(trunk.from_m + (trunk.to_m - trunk.from_m) * i / 15.0, 7.0);
+  auto points = exact_scan_of(park(), {}, 720);
+  const Pose2 turned{0.0, 0.0, 0.012};
+  const auto by_distances = match_from(points, surfels, turned);
+  for (MatchPoint& point : points) point.object_width_m = 0.3, point.object_points = 3.0;
+  EXPECT_EQ(match_from(points, surfels, turned).map_from_base.pose,
+            by_distances.map_from_base.pose);
+}
+
+TEST(PointToLine, LeavesOutTheHeadingOfObjectsTooWideForTheSurfelsAround) {
+  const auto surfels = surfels_of(park(), {0.0, 0.0}, 0.5);
+  auto points = exact_scan_of(park(), {}, 720);
+  const Pose2 turned{0.0, 0.0, 0.012};
+  const auto by_distances = match_from(points, surfels, turned);
+  for (MatchPoint& point : points) point.object_width_m = 1.3, point.object_points = 3.0;
+  EXPECT_EQ(match_from(points, surfels, turned).map_from_base.pose,
+            by_distances.map_from_base.pose);
+}
+
+TEST(PointToLine, TellsLessOfTheHeadingTheWiderTrunksAre) {
+  const auto heading_information = [](double width_m) {
+    World trunks = park();
+    for (slammot::testing::Wall& trunk : trunks) {
+      const Vector2 middle_m = 0.5 * (trunk.from_m + trunk.to_m);
+      const Vector2 half_m = 0.5 * width_m * (trunk.to_m - trunk.from_m).normalized();
+      trunk = {middle_m - half_m, middle_m + half_m};
+    }
+    auto points = exact_scan_of(trunks, {}, 720);
+    for (MatchPoint& point : points) point.object_width_m = width_m, point.object_points = 3.0;
+    const auto found = match_from(points, surfels_of(trunks, {0.0, 0.0}, 0.5), {});
+    return found.scan_information(2, 2) / found.matched_points;
+  };
+  EXPECT_GT(heading_information(0.3), 2.0 * heading_information(0.6));
+}
+
+TEST(PointToLine, IsNotHeldBackAlongAWallOfWhichAPieceIsSeenWhole) {
+  // Through a gap a piece of the wall is seen that has the ends of the gap, not its own.
+  const World corridor = {{{-20.0, 1.5}, {20.0, 1.5}}, {{-20.0, -1.5}, {20.0, -1.5}}};
+  const auto surfels = surfels_of(corridor);
+  std::vector<MatchPoint> points;
+  for (int i = -5; i <= 5; ++i)
+    for (const double side : {-1.5, 1.5}) points.push_back({{0.05 * i, side}, 0.03, 0.5, 11.0});
+  const UncertainPose2 prior{{0.13, 0.05, 0.0}, Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal()};
+  const auto found = PointToLineMatcher().match(points, surfels, prior, prior.pose, {});
+  EXPECT_NEAR(found.map_from_base.pose.x_m, 0.13, 1e-4);
+  EXPECT_NEAR(found.map_from_base.pose.y_m, 0.0, 0.005);
+}
+
 TEST(PointToLine, GivesThePriorWhenNothingMatches) {
   const UncertainPose2 prior{{1.0, 2.0, 0.3}, kVague};
   const auto points = exact_scan_of(slammot::testing::room(), {});
