@@ -241,6 +241,22 @@ TEST(MultipleHypotheses, AreBoundedWhateverTheClutter) {
   EXPECT_EQ(world.tracks.keys().size(), kTracks);
 }
 
+/// The children of the best hypothesis alone must not fill a cluster: a rival may be the truth.
+TEST(MultipleHypotheses, KeepARivalWhileFalseMeasurementsSurroundTheBest) {
+  World world(MhtConfig{}, 5);
+  world.tracks.add(0, start_at({0.0, 0.0, 0.0, 0.0}));
+  const Vector2d truth_m{0.45, 0.0};
+  world.step({{{-0.25, 0.0}, {0.3, 0.0}}, 1});
+  ASSERT_EQ(world.tracks.measurement_of(0), 0U);
+  PointScan clutter{{truth_m}, 1};
+  for (int i = 0; i < 7; ++i) clutter.positions_m.emplace_back(-0.28, 0.04 * (i - 3));
+  world.step(clutter);
+  ASSERT_NE(world.tracks.measurement_of(0), 0U);
+  for (int scan = 0; scan < 3; ++scan) world.step({{truth_m}, 1});
+  EXPECT_EQ(world.tracks.measurement_of(0), 0U);
+  EXPECT_NEAR(world.tracks.best(0).mean.x(), truth_m.x(), 0.1);
+}
+
 TEST(MultipleHypotheses, ForgetWhoIsRemovedAndGoOnWithTheOthers) {
   World world(kManyHypotheses, 4);
   for (int who : {0, 1})
