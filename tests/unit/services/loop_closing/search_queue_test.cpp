@@ -1,6 +1,10 @@
 #include "services/loop_closing/search_queue.hpp"
 
 #include <deque>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +52,33 @@ class SearchQueueTest : public ::testing::Test {
     const geometry::UncertainPose2 expected{
         {}, Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, 0.04).asDiagonal()};
     return {indoor_config(), source, {{{{{&places_.front(), {}}}}, expected, {}}}};
+  }
+
+  /// For a thicket on all of many other thickets, over all headings: everything fits a little.
+  RevisitSearch hopeless_search(std::uint32_t id) {
+    const Place& source = thicket(id);
+    const geometry::UncertainPose2 anywhere{
+        {}, Eigen::Vector3d(400.0, 400.0, std::numbers::pi * std::numbers::pi).asDiagonal()};
+    constexpr std::uint32_t kTargets = 10;
+    std::vector<RevisitCandidate> candidates;
+    for (std::uint32_t i = 0; i < kTargets; ++i)
+      candidates.push_back({{{{&thicket(1000 + i), {}}}}, anywhere, {100.0 * i, 0.0, 0.0}});
+    return {indoor_config(), source, std::move(candidates)};
+  }
+
+  const Place& thicket(std::uint32_t id) {
+    std::mt19937_64 random(id);
+    std::uniform_real_distribution<double> place_m(-11.0, 11.0);
+    std::uniform_real_distribution<double> part_m(-0.3, 0.3);
+    FloorPlan plan;
+    for (int trunk = 0; trunk < 150; ++trunk) {
+      const geometry::Vector2 at_m(place_m(random), place_m(random));
+      plan.add(at_m, at_m + geometry::Vector2(part_m(random), part_m(random)));
+    }
+    places_.push_back(
+        make_place(submap_seen_from(plan, id, {{}, {4.0, 3.0, 0.0}, {-5.0, 2.0, 0.0}}), 0.0,
+                   {.tolerance_m = 0.15}));
+    return places_.back();
   }
 
   std::deque<Place> places_;  ///< Searches refer to them.
@@ -125,6 +156,28 @@ TEST_F(SearchQueueTest, GivesUpASearchThatHasReadTooMuch) {
   ASSERT_EQ(finished.size(), 1U);
   EXPECT_TRUE(finished.front().is_given_up);
   EXPECT_EQ(queue.given_up(), 1U);
+}
+
+TEST_F(SearchQueueTest, SpreadsAHopelessSearchOverThreeSubmapsBeforeItIsGivenUp) {
+  SearchQueue queue{SearchBudget{}};
+  queue.add(hopeless_search(1), Extent::kEverywhere);
+  int submaps = 0;
+  while (!queue.is_empty() && submaps < 10) {
+    queue.advance();
+    ++submaps;
+  }
+  EXPECT_EQ(submaps, 3);
+  EXPECT_EQ(queue.given_up(), 1U);
+}
+
+TEST_F(SearchQueueTest, EndsADriveWithNoMoreWorkThanForTwoSubmaps) {
+  SearchQueue queue{SearchBudget{}};
+  for (const std::uint32_t id : {1U, 2U}) queue.add(hopeless_search(id), Extent::kEverywhere);
+  queue.advance();
+  const std::uint64_t work_of_submap = queue.work();
+  queue.finish();
+  EXPECT_LE(queue.work() - work_of_submap, 2 * work_of_submap);
+  EXPECT_TRUE(queue.is_empty());
 }
 
 TEST_F(SearchQueueTest, GivesUpTheOldestSearchEverywhereWhenTooManyArePending) {
