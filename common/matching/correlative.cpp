@@ -10,7 +10,6 @@
 namespace slammot::matching {
 namespace {
 
-using geometry::Matrix3;
 using geometry::Pose2;
 using geometry::Vector2;
 
@@ -142,8 +141,7 @@ std::vector<Peak> CorrelativeMatcher::search(std::span<const Eigen::Vector2f> po
     }
     if (best.bound == to_beat) break;
     found_.push_back(best);
-    const Pose2 pose = pose_of(best);
-    peaks.push_back({{pose, covariance_around(points_in_source_m, pose)}, best.bound / full_sum});
+    peaks.push_back({pose_of(best), best.bound / full_sum});
     threshold = std::max(threshold, config_.min_peak_ratio * found_.front().bound);
   }
   return peaks;
@@ -268,85 +266,22 @@ Pose2 CorrelativeMatcher::pose_of(const Block& leaf) const {
           geometry::wrap_angle(initial_.heading_rad + headings_[leaf.heading].heading_offset_rad)};
 }
 
-std::vector<CorrelativeMatcher::Cell> CorrelativeMatcher::cells_of(
-    std::span<const Eigen::Vector2f> points, const Pose2& target_from_source) const {
-  std::vector<Cell> cells;
-  cells.reserve(points.size());
-  const Eigen::Matrix2d rotation = geometry::rotation(target_from_source.heading_rad);
-  for (const Eigen::Vector2f& point : points) {
-    cells.push_back(cell_of(rotation * point.cast<double>() + target_from_source.translation_m()));
-  }
-  return cells;
-}
-
-std::uint32_t CorrelativeMatcher::sum_at(std::span<const Cell> cells, std::int32_t column_shift,
-                                         std::int32_t row_shift) const {
-  std::uint32_t sum = 0;
-  for (const Cell& cell : cells) {
-    const std::int32_t column = cell.column + column_shift;
-    const std::int32_t row = cell.row + row_shift;
-    const bool inside = static_cast<std::uint32_t>(column) < static_cast<std::uint32_t>(columns_) &&
-                        static_cast<std::uint32_t>(row) < static_cast<std::uint32_t>(rows_);
-    if (inside)
-      sum += pyramid_.front()[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                              static_cast<std::size_t>(column)];
-  }
-  return sum;
-}
-
 double CorrelativeMatcher::score(std::span<const Eigen::Vector2f> points_in_source_m,
                                  const Pose2& target_from_source) const {
   if (points_in_source_m.empty() || pyramid_.empty()) return 0.0;
-  return sum_at(cells_of(points_in_source_m, target_from_source), 0, 0) /
-         (kFull * static_cast<double>(points_in_source_m.size()));
-}
-
-Matrix3 CorrelativeMatcher::covariance_around(std::span<const Eigen::Vector2f> points,
-                                              const Pose2& peak) const {
-  constexpr std::int32_t kHalf = 3;  // 7 x 7 x 7 poses around the peak
-  constexpr double kRidge = 0.3;  // relative likelihood at the rim above which the search area is
-                                  // extended
-  constexpr std::int32_t kLongestStride = 64;  // beyond it the direction counts as unobserved
-  const double full_sum = kFull * static_cast<double>(points.size());
-  std::array<std::vector<Cell>, 2 * kHalf + 1> turned;
-  for (std::int32_t turn = -kHalf; turn <= kHalf; ++turn) {
-    turned[static_cast<std::size_t>(turn + kHalf)] =
-        cells_of(points, {peak.x_m, peak.y_m, peak.heading_rad + turn * heading_step_rad_});
+  const Eigen::Matrix2d rotation = geometry::rotation(target_from_source.heading_rad);
+  std::uint32_t sum = 0;
+  for (const Eigen::Vector2f& point : points_in_source_m) {
+    const Cell cell = cell_of(rotation * point.cast<double>() + target_from_source.translation_m());
+    const bool inside =
+        static_cast<std::uint32_t>(cell.column) < static_cast<std::uint32_t>(columns_) &&
+        static_cast<std::uint32_t>(cell.row) < static_cast<std::uint32_t>(rows_);
+    if (inside)
+      sum +=
+          pyramid_.front()[static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns_) +
+                           static_cast<std::size_t>(cell.column)];
   }
-  const double peak_sum = sum_at(turned[kHalf], 0, 0);
-  // For small errors the score falls like the log-likelihood of that many independent points with
-  // the kernel's sigma.
-  const auto likelihood = [&](std::int32_t column, std::int32_t row, std::int32_t turn) {
-    const double sum = sum_at(turned[static_cast<std::size_t>(turn + kHalf)], column, row);
-    return std::exp(std::min(0.0, config_.independent_points * (sum - peak_sum) / full_sum));
-  };
-  Matrix3 covariance;
-  for (std::int32_t stride = 1;; stride *= 2) {
-    Matrix3 moments = Matrix3::Zero();
-    double total = 0.0;
-    double highest_at_rim = 0.0;
-    for (std::int32_t turn = -kHalf; turn <= kHalf; ++turn) {
-      for (std::int32_t row = -kHalf; row <= kHalf; ++row) {
-        for (std::int32_t column = -kHalf; column <= kHalf; ++column) {
-          const double weight = likelihood(stride * column, stride * row, turn);
-          const Eigen::Vector3d offset(config_.resolution_m * stride * column,
-                                       config_.resolution_m * stride * row,
-                                       heading_step_rad_ * turn);
-          moments += weight * offset * offset.transpose();
-          total += weight;
-          const bool at_rim = std::abs(column) == kHalf || std::abs(row) == kHalf;
-          if (at_rim) highest_at_rim = std::max(highest_at_rim, weight);
-        }
-      }
-    }
-    covariance = moments / total;
-    if (highest_at_rim < kRidge || stride >= kLongestStride) break;
-  }
-  const double cell_variance_m2 = config_.resolution_m * config_.resolution_m / 12.0;
-  covariance(0, 0) += cell_variance_m2;
-  covariance(1, 1) += cell_variance_m2;
-  covariance(2, 2) += heading_step_rad_ * heading_step_rad_ / 12.0;
-  return covariance;
+  return sum / (kFull * static_cast<double>(points_in_source_m.size()));
 }
 
 }  // namespace slammot::matching

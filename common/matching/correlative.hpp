@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "common/geometry/uncertain_pose2.hpp"
+#include "common/geometry/pose2.hpp"
 #include "common/matching/smear_kernel.hpp"
 
 namespace slammot::matching {
@@ -43,12 +43,10 @@ struct CorrelativeConfig {
   double min_peak_ratio = 0.7;       ///< Further peaks score at least this share of the best.
   double peak_separation_m = 0.5;    ///< Further peaks differ by more than this in x or y
   double peak_separation_rad = 0.1;  ///< or by more than this in heading.
-  double independent_points = 30.0;  ///< Effective number of independent points; neighbours share
-                                     ///< their error. Scales the covariance.
 };
 
 struct Peak {
-  geometry::UncertainPose2 target_from_source;
+  geometry::Pose2 target_from_source;
   double score = 0.0;  ///< In [0, 1]: mean likelihood of the points.
 };
 
@@ -66,9 +64,7 @@ class CorrelativeMatcher {
 
   /// Returns the best peaks in the window around the initial pose, best first; at most max_peaks,
   /// none below min_score. The first is the maximum over the window; the others are local maxima.
-  /// The covariance comes from the score surface around the peak (Olson 2009, Eqs. (14)-(17)) and
-  /// covers a whole ridge, also beyond the window. Windows wider than the region's largest_shift_m
-  /// are cut to it. Empty if there are no points.
+  /// Windows wider than the region's largest_shift_m are cut to it. Empty if there are no points.
   std::vector<Peak> search(std::span<const Eigen::Vector2f> points_in_source_m,
                            const geometry::Pose2& target_from_source, const SearchWindow& window);
 
@@ -117,12 +113,6 @@ class CorrelativeMatcher {
   bool may_hold_a_new_peak(const Block& block, int level) const;
   bool is_local_maximum(const Block& leaf, const Shifts& shifts) const;
   geometry::Pose2 pose_of(const Block& leaf) const;
-  geometry::Matrix3 covariance_around(std::span<const Eigen::Vector2f> points,
-                                      const geometry::Pose2& peak) const;
-  std::uint32_t sum_at(std::span<const Cell> cells, std::int32_t column_shift,
-                       std::int32_t row_shift) const;
-  std::vector<Cell> cells_of(std::span<const Eigen::Vector2f> points,
-                             const geometry::Pose2& target_from_source) const;
 
   CorrelativeConfig config_;
   SmearKernel kernel_;

@@ -75,7 +75,7 @@ std::optional<PairPeak> best_match(CorrelativeMatcher& matcher, const std::vecto
   const auto peaks = matcher.search(source_m, Pose2::identity(),
                                     {kReachM, kReachM, std::clamp(2.3 * turn_rad, 0.3, 1.6)});
   if (peaks.empty()) return std::nullopt;
-  return PairPeak{refined(matcher, source_m, peaks.front().target_from_source.pose),
+  return PairPeak{refined(matcher, source_m, peaks.front().target_from_source),
                   peaks.front().score};
 }
 

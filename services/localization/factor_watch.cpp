@@ -102,8 +102,7 @@ FactorWatch::FactorWatch()
                 .max_peaks = 1,
                 .min_peak_ratio = 0.7,
                 .peak_separation_m = 0.5,
-                .peak_separation_rad = 0.1,
-                .independent_points = 30.0}) {}
+                .peak_separation_rad = 0.1}) {}
 
 void FactorWatch::begin(const Seen& seen) {
   first_wheel_from_base_ = seen.wheel_from_base;
@@ -135,7 +134,7 @@ void FactorWatch::compare(const Pose2& by_wheels, const Points& second) {
   const auto peaks =
       matcher_.search(second, Pose2::identity(), {kSearched_m, kSearched_m, reach_rad});
   if (peaks.empty()) return;
-  const Pose2 by_scans = peaks.front().target_from_source.pose;
+  const Pose2 by_scans = peaks.front().target_from_source;
   const bool refutes = matcher_.score(second, by_wheels) < kScoresAsWell * peaks.front().score;
   const auto count = [&](double scans, double wheels, FactorRatios& ratios) {
     const double ratio = scans / wheels;

@@ -85,7 +85,7 @@ Pose2 ScanMatcher::found_in(const matching::SearchWindow& window, const Pose2& m
   for (const matching::MatchPoint& point : scan.points)
     sources.push_back(point.in_base_m.cast<float>());
   const std::vector<matching::Peak> peaks = search_.search(sources, middle, window);
-  return peaks.empty() ? middle : peaks.front().target_from_source.pose;
+  return peaks.empty() ? middle : peaks.front().target_from_source;
 }
 
 /// The best pose within the prior's reach; the prior's own where nothing scores. Within a wide one
