@@ -23,10 +23,10 @@ class OdometryCheck {
                                         ///< is correct.
   /// True if chords turn against the headings, or if a point far from the turning axle moves as if
   /// behind it: the turns' sign is wrong. unit_m: metres per unit of the positions.
-  bool turns_against_its_arcs(double unit_m = 1.0) const;
+  bool turns_against_its_arcs(double unit_m) const;
   /// True if chords turn with the headings, or if a point far from the axle moves as if ahead of
   /// it. Neither is true if arcs of single steps are not observable.
-  bool turns_with_its_arcs(double unit_m = 1.0) const;
+  bool turns_with_its_arcs(double unit_m) const;
   double mirrored_direction_rad() const;  ///< Direction of positions minus mirrored headings,
                                           ///< modulo pi.
 
@@ -35,7 +35,7 @@ class OdometryCheck {
   std::optional<double> ahead_of_axle_m(double unit_m) const;
 
   struct Unit {
-    double radians = 1.0;
+    double radians;                      ///< Per unit of the headings.
     std::complex<double> along = {};     ///< Sum of way * exp(2i (direction - heading)).
     std::complex<double> mirrored = {};  ///< Sum of way * exp(2i (direction + heading)).
     double arc = 0.0;                    ///< Sum of way * sin(direction - heading) * turn.

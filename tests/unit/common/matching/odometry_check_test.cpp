@@ -12,6 +12,8 @@ namespace {
 using geometry::Pose2;
 using std::numbers::pi;
 
+constexpr double kMetres = 1.0;  // per unit of the positions
+
 TEST(OdometryCheck, TellsDegreesFromRadians) {
   OdometryCheck radians;
   OdometryCheck degrees;
@@ -43,19 +45,19 @@ std::pair<OdometryCheck, OdometryCheck> turning_by_steps(const Pose2& step) {
 
 TEST(OdometryCheck, SeesHeadingsThatTurnAgainstTheirArcs) {
   const auto [sound, mirrored] = turning_by_steps({0.2, 0.2 * 0.05, 0.1});
-  EXPECT_FALSE(sound.turns_against_its_arcs());
-  EXPECT_TRUE(sound.turns_with_its_arcs());
-  EXPECT_TRUE(mirrored.turns_against_its_arcs());
-  EXPECT_FALSE(mirrored.turns_with_its_arcs());
+  EXPECT_FALSE(sound.turns_against_its_arcs(kMetres));
+  EXPECT_TRUE(sound.turns_with_its_arcs(kMetres));
+  EXPECT_TRUE(mirrored.turns_against_its_arcs(kMetres));
+  EXPECT_FALSE(mirrored.turns_with_its_arcs(kMetres));
 }
 
 TEST(OdometryCheck, SeesArcsAlsoWherePositionsAreLate) {
   // along the heading of one and a half steps ago
   const auto [sound, mirrored] = turning_by_steps({0.2, -0.2 * 0.1, 0.1});
-  EXPECT_TRUE(sound.turns_with_its_arcs());
-  EXPECT_FALSE(sound.turns_against_its_arcs());
-  EXPECT_TRUE(mirrored.turns_against_its_arcs());
-  EXPECT_FALSE(mirrored.turns_with_its_arcs());
+  EXPECT_TRUE(sound.turns_with_its_arcs(kMetres));
+  EXPECT_FALSE(sound.turns_against_its_arcs(kMetres));
+  EXPECT_TRUE(mirrored.turns_against_its_arcs(kMetres));
+  EXPECT_FALSE(mirrored.turns_with_its_arcs(kMetres));
 }
 
 /// Poses of a point of a car ahead of its rear axle, at changing speed, once with sound turns and
@@ -81,10 +83,10 @@ struct CentresOfACar {
 
 TEST(OdometryCheck, TellsTurnsWithTheWrongSignByThePointAheadOfTheAxle) {
   const CentresOfACar car;
-  EXPECT_TRUE(car.sound.turns_with_its_arcs());
-  EXPECT_FALSE(car.sound.turns_against_its_arcs());
-  EXPECT_TRUE(car.mirrored.turns_against_its_arcs());
-  EXPECT_FALSE(car.mirrored.turns_with_its_arcs());
+  EXPECT_TRUE(car.sound.turns_with_its_arcs(kMetres));
+  EXPECT_FALSE(car.sound.turns_against_its_arcs(kMetres));
+  EXPECT_TRUE(car.mirrored.turns_against_its_arcs(kMetres));
+  EXPECT_FALSE(car.mirrored.turns_with_its_arcs(kMetres));
 }
 
 TEST(OdometryCheck, KnowsThePointAheadOfTheAxleInMillimetresToo) {
