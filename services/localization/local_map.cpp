@@ -188,10 +188,9 @@ std::optional<flow::Surfel> LocalMap::own_surfel(const grids::SurfelView& surfel
 void LocalMap::leave_behind_what_was_not_seen() {
   // Short of the limit, so that whatever the next submap sees moves the cell and can be told from
   // what it took over.
-  const int most_steps = std::min(
-      127, grids::steps_of_log_odds(kInheritedShareOfLimit * config_.evidence.limit_log_odds));
   std::vector<std::int8_t> so = evidence().so_cells();
-  keep_changed(so.data(), inherited_->so.data(), so.size(), most_steps);
+  keep_changed(so.data(), inherited_->so.data(), so.size(),
+               grids::steps_of_log_odds(kInheritedShareOfLimit * config_.evidence.limit_log_odds));
   std::vector<std::int8_t> lasting = evidence().lasting_cells();
   keep_changed_or_driven_over(
       lasting.data(), inherited_->lasting.data(), lasting.size(),
