@@ -56,7 +56,7 @@ struct StepWheels {
 struct Step {
   std::int64_t stamp_ns = 0;      ///< Of the scan at hand.
   double duration_s = 0.0;        ///< Since the last one; 0 for another scanner's at the same time.
-  double usual_duration_s = 0.1;  ///< Of the steps before.
+  double usual_duration_s = 0.0;  ///< Of the steps before.
   StepSource source = StepSource::kVelocityAlone;
   StepWheels wheels;
   geometry::UncertainPose2 odom_from_base_before;  ///< Estimate at the last scan.
