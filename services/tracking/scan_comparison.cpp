@@ -75,8 +75,6 @@ bool may_have_flank(const Segment& segment, const TrackingConfig& config) {
 }
 
 EarlierScans earlier_scans(const ScanContext& context) {
-  constexpr double kSoonS = 0.4;
-  constexpr double kLaterS = 0.6;
   const TrackingConfig& config = context.config;
   const auto older_than = [&](double age_s) {
     return context.history.older_than(context.scan().stamp_ns, age_s);
@@ -86,8 +84,7 @@ EarlierScans earlier_scans(const ScanContext& context) {
   earlier.recent = only_people_move(config) ? older_than(kCompareFastAfterS) : nullptr;
   earlier.distant = older_than(kCompareSlowAfterS);
   if (only_people_move(config)) return earlier;
-  for (const double age_s :
-       {kCompareFastAfterS, kSoonS, kLaterS, kCompareAfterS, kCompareSlowAfterS})
+  for (const double age_s : kFaceAgesS)
     if (const EarlierScan* then = older_than(age_s); then != nullptr)
       earlier.for_faces[earlier.count_for_faces++] = then;
   return earlier;

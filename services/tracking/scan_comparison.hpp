@@ -10,12 +10,16 @@
 
 namespace slammot::tracking {
 
+/// Ages of the scans in which faces are looked for [s].
+inline constexpr std::array kFaceAgesS{kCompareFastAfterS, 0.4, 0.6, kCompareAfterS,
+                                       kCompareSlowAfterS};
+
 /// The earlier scans with which a scan is compared; null where the history is too short.
 struct EarlierScans {
   const EarlierScan* usual = nullptr;    ///< kCompareAfterS ago.
   const EarlierScan* recent = nullptr;   ///< kCompareFastAfterS ago; where only people move.
   const EarlierScan* distant = nullptr;  ///< kCompareSlowAfterS ago.
-  std::array<const EarlierScan*, 5> for_faces{};  ///< Newest first.
+  std::array<const EarlierScan*, kFaceAgesS.size()> for_faces{};  ///< Newest first.
   std::size_t count_for_faces = 0;
 };
 
