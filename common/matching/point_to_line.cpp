@@ -23,7 +23,12 @@ constexpr double kWidestInCells = 2.4;     ///< Objects that fit into the 3 x 3 
                                            ///< surfel's.
 constexpr double kExtents = 2.0;  ///< An object's echoes are within so many sigmas of its extent.
 constexpr double kSeenFromWithin_m = 5.0;  ///< The way on which a surfel's mean was made.
-constexpr int kFewestObjects = 4;          ///< The side from which one is seen decides nothing.
+constexpr int kFewestObjects = 4;          ///< Of fewer, the error of one decides.
+
+bool has_objects(const std::vector<MatchPoint>& points) {
+  return std::ranges::any_of(points,
+                             [](const MatchPoint& point) { return point.object_width_m > 0.0; });
+}
 
 /// The side of an object that is seen now is not that of which the map has the mean: an error of
 /// its points that they share, up to half its width.
@@ -185,8 +190,8 @@ PointToLineMatcher::NormalEquations PointToLineMatcher::linearize(
   return equations;
 }
 
-/// Whether what surfaces tell of the heading is not enough. Where it is, what objects tell beside
-/// it would do harm: their errors last as long as they are seen.
+/// Whether what surfaces tell of the heading is not enough. Where it is, objects do harm: their
+/// errors last as long as they are in view.
 bool PointToLineMatcher::leaves_heading_open(const Pose2& map_from_base, double gate_m,
                                              const PointToLineConfig& config) const {
   const double open_rad2 = config.open_heading_rad * config.open_heading_rad;
@@ -217,7 +222,8 @@ PointToLineResult PointToLineMatcher::match(const std::vector<MatchPoint>& point
     const double gate_m = is_coarse ? config.coarse_gate_m : config.fine_gate_m;
     if (moved_since_paired_m > kSamePairsWithin * surfels.window().cell_size_m) {
       pair(points, surfels, pose, gate_m, config);
-      if (!is_heading_open) is_heading_open = leaves_heading_open(pose, gate_m, config);
+      if (!is_heading_open)
+        is_heading_open = has_objects(points) && leaves_heading_open(pose, gate_m, config);
       if (*is_heading_open) find_objects(points, surfels);
       moved_since_paired_m = 0.0;
     }

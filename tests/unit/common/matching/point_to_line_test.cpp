@@ -358,53 +358,52 @@ World park() {
   return trunks;
 }
 
+const Pose2 kTurned{0.0, 0.0, 0.012};
+
+/// The points up to a range as those of objects of a width, of which both ends were seen.
+std::vector<MatchPoint> seen_whole(std::vector<MatchPoint> points, double width_m,
+                                   double up_to_m = 100.0) {
+  for (MatchPoint& point : points)
+    if (point.in_base_m.norm() < up_to_m) point.object_width_m = width_m, point.object_points = 3.0;
+  return points;
+}
+
 TEST(PointToLine, FindsTheHeadingByTrunksThatWereSeenWhole) {
   const auto surfels = surfels_of(park(), {0.0, 0.0}, 0.5);
-  auto points = exact_scan_of(park(), {}, 720);
-  const Pose2 turned{0.0, 0.0, 0.012};
-  const auto by_distances = match_from(points, surfels, turned);
-  for (MatchPoint& point : points) point.object_width_m = 0.3, point.object_points = 3.0;
-  const auto whole = match_from(points, surfels, turned);
+  const auto points = exact_scan_of(park(), {}, 720);
+  const auto by_distances = match_from(points, surfels, kTurned);
+  const auto whole = match_from(seen_whole(points, 0.3), surfels, kTurned);
   EXPECT_NEAR(whole.map_from_base.pose.heading_rad, 0.0, 0.001);
   EXPECT_GT(whole.scan_information(2, 2), 3.0 * by_distances.scan_information(2, 2));
 }
 
-TEST(PointToLine, AsksNoObjectsWhereWallsTellTheHeading) {
+TEST(PointToLine, UsesNoObjectsWhereWallsTellTheHeading) {
   const World in_a_hall = joined(park(), slammot::testing::box({}, 50.0, 40.0));
   const auto surfels = surfels_of(in_a_hall, {0.0, 0.0}, 0.5);
-  auto points = exact_scan_of(in_a_hall, {}, 720);
-  const Pose2 turned{0.0, 0.0, 0.012};
-  const auto by_walls = match_from(points, surfels, turned);
-  for (MatchPoint& point : points)
-    if (point.in_base_m.norm() < 16.0) point.object_width_m = 0.3, point.object_points = 3.0;
-  EXPECT_EQ(match_from(points, surfels, turned).map_from_base.pose, by_walls.map_from_base.pose);
+  const auto points = exact_scan_of(in_a_hall, {}, 720);
+  const auto with_objects = seen_whole(points, 0.3, 16.0);
+  const Pose2 by_walls = match_from(points, surfels, kTurned).map_from_base.pose;
+  EXPECT_EQ(match_from(with_objects, surfels, kTurned).map_from_base.pose, by_walls);
   PointToLineConfig never_sure;
   never_sure.open_heading_rad = 1e-6;
-  EXPECT_NE(match_from(points, surfels, turned, never_sure).map_from_base.pose,
-            by_walls.map_from_base.pose);
+  EXPECT_NE(match_from(with_objects, surfels, kTurned, never_sure).map_from_base.pose, by_walls);
 }
 
-TEST(PointToLine, AsksNoObjectsThatAreNotProven) {
-  grids::SurfelMap surfels(grids::window_around({0.0, 0.0}, 60.0, 0.5), 1000.0);
+TEST(PointToLine, UsesNoObjectsThatAreNotProvenOrTooWideOrFew) {
+  const auto surfels = surfels_of(park(), {0.0, 0.0}, 0.5);
+  grids::SurfelMap unproven(grids::window_around({0.0, 0.0}, 60.0, 0.5), 1000.0);
   for (const slammot::testing::Wall& trunk : park())
     for (int i = 0; i <= 15; ++i)
-      surfels.add(trunk.from_m + (trunk.to_m - trunk.from_m) * i / 15.0, 7.0);
-  auto points = exact_scan_of(park(), {}, 720);
-  const Pose2 turned{0.0, 0.0, 0.012};
-  const auto by_distances = match_from(points, surfels, turned);
-  for (MatchPoint& point : points) point.object_width_m = 0.3, point.object_points = 3.0;
-  EXPECT_EQ(match_from(points, surfels, turned).map_from_base.pose,
-            by_distances.map_from_base.pose);
-}
-
-TEST(PointToLine, LeavesOutTheHeadingOfObjectsTooWideForTheSurfelsAround) {
-  const auto surfels = surfels_of(park(), {0.0, 0.0}, 0.5);
-  auto points = exact_scan_of(park(), {}, 720);
-  const Pose2 turned{0.0, 0.0, 0.012};
-  const auto by_distances = match_from(points, surfels, turned);
-  for (MatchPoint& point : points) point.object_width_m = 1.3, point.object_points = 3.0;
-  EXPECT_EQ(match_from(points, surfels, turned).map_from_base.pose,
-            by_distances.map_from_base.pose);
+      unproven.add(trunk.from_m + (trunk.to_m - trunk.from_m) * i / 15.0, 7.0);
+  const auto points = exact_scan_of(park(), {}, 720);
+  const auto pose_of = [](const std::vector<MatchPoint>& matched, const grids::SurfelMap& map) {
+    return match_from(matched, map, kTurned).map_from_base.pose;
+  };
+  const Pose2 by_distances = pose_of(points, surfels);
+  EXPECT_EQ(pose_of(seen_whole(points, 0.3), unproven), pose_of(points, unproven));
+  EXPECT_EQ(pose_of(seen_whole(points, 1.3), surfels), by_distances);
+  EXPECT_EQ(pose_of(seen_whole(points, 0.3, 7.6), surfels), by_distances) << "two trunks";
+  EXPECT_NE(pose_of(seen_whole(points, 0.3, 9.6), surfels), by_distances) << "four trunks";
 }
 
 TEST(PointToLine, TellsLessOfTheHeadingTheWiderTrunksAre) {
@@ -415,23 +414,25 @@ TEST(PointToLine, TellsLessOfTheHeadingTheWiderTrunksAre) {
       const Vector2 half_m = 0.5 * width_m * (trunk.to_m - trunk.from_m).normalized();
       trunk = {middle_m - half_m, middle_m + half_m};
     }
-    auto points = exact_scan_of(trunks, {}, 720);
-    for (MatchPoint& point : points) point.object_width_m = width_m, point.object_points = 3.0;
+    const auto points = seen_whole(exact_scan_of(trunks, {}, 720), width_m);
     const auto found = match_from(points, surfels_of(trunks, {0.0, 0.0}, 0.5), {});
     return found.scan_information(2, 2) / found.matched_points;
   };
   EXPECT_GT(heading_information(0.3), 2.0 * heading_information(0.6));
 }
 
-TEST(PointToLine, IsNotHeldBackAlongAWallOfWhichAPieceIsSeenWhole) {
-  // Through a gap a piece of the wall is seen that has the ends of the gap, not its own.
+TEST(PointToLine, IsNotHeldBackAlongAWallOfWhichPiecesAreSeenWhole) {
+  // Through gaps pieces of a wall are seen that have the ends of the gaps, not their own.
   const World corridor = {{{-20.0, 1.5}, {20.0, 1.5}}, {{-20.0, -1.5}, {20.0, -1.5}}};
-  const auto surfels = surfels_of(corridor);
+  const auto surfels = surfels_of(corridor, {0.0, 0.0}, 0.5);
   std::vector<MatchPoint> points;
-  for (int i = -5; i <= 5; ++i)
-    for (const double side : {-1.5, 1.5}) points.push_back({{0.05 * i, side}, 0.03, 0.5, 11.0});
+  for (const double side : {-1.5, 1.5})
+    for (const double gap_m : {-6.0, -2.0, 2.0, 6.0})
+      for (int i = -5; i <= 5; ++i) points.push_back({{gap_m + 0.05 * i, side}, 0.03, 0.5, 11.0});
   const UncertainPose2 prior{{0.13, 0.05, 0.0}, Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal()};
-  const auto found = PointToLineMatcher().match(points, surfels, prior, prior.pose, {});
+  PointToLineConfig never_sure;
+  never_sure.open_heading_rad = 1e-6;
+  const auto found = PointToLineMatcher().match(points, surfels, prior, prior.pose, never_sure);
   EXPECT_NEAR(found.map_from_base.pose.x_m, 0.13, 1e-4);
   EXPECT_NEAR(found.map_from_base.pose.y_m, 0.0, 0.005);
 }
